@@ -4,7 +4,7 @@
  */
 #include "op-parts.h"
 
-#define MOST_PROBLEMS 8 /* in one message (chosen) */
+#include "problems.h"
 
 void
 celd_op_add_line (CeldOp *op, const char *text)
@@ -69,21 +69,7 @@ gboolean
 celd_op_report (CeldOp *op, const CeldProblems *problems, const CeldPalette *palette, const CeldRelations *relations,
               const CeldOrder *order)
 {
-  for (size_t i = 0; problems && i < MIN (problems->n, MOST_PROBLEMS); i++)
-    {
-      const CeldProblem *problem = &problems->item[i];
-      char               text[400];
-
-      celd_problem_text (problem, palette, relations, text, sizeof text);
-      celd_op_add_line (op, text);
-      if (problem->kind == CELD_PROBLEM_CONTRADICTION && order && problem->other < order->n_cycles)
-        {
-          celd_cycle_text (&order->cycle[problem->other], relations, text, sizeof text);
-          g_string_append_printf (op->message, " %s", text);
-        }
-    }
-  if (problems && problems->n > MOST_PROBLEMS)
-    g_string_append_printf (op->message, "\nThere are %zu more messages.", problems->n - MOST_PROBLEMS);
+  celd_problems_append (op->message, problems, palette, relations, order);
   return TRUE;
 }
 

@@ -29,6 +29,8 @@ CELD_API CeldStatus celd_coloured_lines (const CeldPaint *art, CeldInkMode mode,
  * by the paper around each pixel, so that uneven paper becomes 1 and grey pencil 0.  `ink` has the drawing's size and
  * must not alias it. */
 CELD_API CeldStatus celd_ink (const CeldDrawing *drawing, CeldInkMode mode, const CeldHost *host, CeldPlane *ink);
+/* Whether there are both ink and paper: a page without lines makes no sense. */
+CELD_API bool celd_ink_has_lines (const CeldPlane *ink);
 
 /* Draws virtual contours (section 4) into a drawing, before celd_ink: red strokes become ink, blue strokes ink for
  * segmentation alone, green strokes paper.  Polarity and alpha stay; without alpha in the drawing out->alpha is not

@@ -312,3 +312,19 @@ celd_ink (const CeldDrawing *drawing, CeldInkMode mode, const CeldHost *host, Ce
   end_work (&w);
   return status;
 }
+
+bool
+celd_ink_has_lines (const CeldPlane *ink)
+{
+  bool lines = false, paper = false;
+
+  for (int y = 0; y < ink->height && !(lines && paper); y++)
+    for (int x = 0; x < ink->width; x++)
+      {
+        bool dark = CELD_AT (ink, x, y) < 0.5f;
+
+        lines = lines || dark;
+        paper = paper || !dark;
+      }
+  return lines && paper;
+}

@@ -105,17 +105,7 @@ cli_check_not_exchanged (const CliOptions *options, CliLayers *layers)
 bool
 cli_check_lines (const char *path, const CeldPlane *ink)
 {
-  bool lines = false, paper = false;
-
-  for (int y = 0; y < ink->height && !(lines && paper); y++)
-    for (int x = 0; x < ink->width; x++)
-      {
-        bool dark = ink->data[(size_t) y * ink->stride + (size_t) x] < 0.5f;
-
-        lines = lines || dark;
-        paper = paper || !dark;
-      }
-  return (lines && paper) ||
+  return celd_ink_has_lines (ink) ||
          cli_error ("\"%s\" has no lines: it is blank, or its lines are too faint (--ink says what they are).", path);
 }
 

@@ -407,6 +407,21 @@ sizes (void)
     }
 }
 
+static void
+lines_are_ink_beside_paper (void)
+{
+  static const char *const paper[] = { "...", "...", NULL }, *const line[] = { "...", "..#", NULL },
+                    *const black[] = { "###", "###", NULL };
+  CeldPlane blank = art_plane (paper), drawn = art_plane (line), full = art_plane (black);
+
+  CHECK (!celd_ink_has_lines (&blank));
+  CHECK (!celd_ink_has_lines (&full));
+  CHECK (celd_ink_has_lines (&drawn));
+  free (blank.data);
+  free (drawn.data);
+  free (full.data);
+}
+
 int
 main (void)
 {
@@ -423,6 +438,7 @@ main (void)
   RUN (light_is_dark_inverted);
   RUN (alpha_is_ink);
   RUN (not_a_number_is_paper);
+  RUN (lines_are_ink_beside_paper);
   RUN (sizes);
   return DONE;
 }

@@ -1,0 +1,17 @@
+/* Problems as a message to the artist, for operations and plug-ins.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#ifndef CELD_PROBLEMS_H
+#define CELD_PROBLEMS_H
+
+#include <glib.h>
+
+#include "celdepth.h"
+
+/* Appends a line for each of the first problems, and how many more there are.  `order` has the cycles of
+ * contradictions; it, the palette and the relations may be NULL. */
+void celd_problems_append (GString *message, const CeldProblems *problems, const CeldPalette *palette,
+                           const CeldRelations *relations, const CeldOrder *order);
+
+#endif

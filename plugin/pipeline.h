@@ -1,0 +1,72 @@
+/* From the layers of an image to depth: GeglBuffers in, GeglBuffers out.  What the plug-ins of GIMP share; all of the
+ * method is in core.
+ *
+ *     CeldPipeline *pipeline = celd_pipeline_new (&input, &error);
+ *
+ *     if (pipeline && celd_pipeline_make (pipeline, 1u << CELD_PICTURE_DEPTH, progress, data, &error))
+ *       celd_pipeline_write (pipeline, CELD_PICTURE_DEPTH, buffer);
+ *     celd_pipeline_free (pipeline);
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#ifndef CELD_PIPELINE_H
+#define CELD_PIPELINE_H
+
+#include <gegl.h>
+
+#include "celdepth.h"
+
+typedef enum
+{
+  CELD_LAYER_DRAWING, CELD_LAYER_SCRIBBLES, CELD_LAYER_ARROWS, CELD_LAYER_CONTOURS, CELD_LAYER_CORRECTIONS,
+  CELD_LAYER_HIDDEN, CELD_N_LAYERS
+} CeldLayerRole;
+
+typedef enum
+{
+  CELD_PICTURE_REGIONS,           /* flat colours, transparent where celdepth added the background */
+  CELD_PICTURE_LEVELS,            /* expanded levels, in [0,1], linear */
+  CELD_PICTURE_DEPTH,             /* smooth depth, in [0,1], linear */
+  CELD_PICTURE_NORMALS,           /* 0.5 + 0.5 n as the numbers that the buffer stores, encoded or linear */
+  CELD_PICTURE_SHADING,           /* the light alone */
+  CELD_PICTURE_LIT,               /* the drawing with light */
+  CELD_PICTURE_ENHANCED,          /* the drawing with shadows */
+  CELD_PICTURE_SUGGESTIONS,       /* suggested arrows on a transparent layer */
+  CELD_N_PICTURES
+} CeldPicture;
+
+/* A layer, with the place of its upper left corner in the image; buffer NULL: there is none. */
+typedef struct { GeglBuffer *buffer; int x, y; } CeldPipelineLayer;
+
+typedef struct
+{
+  int               width, height;                /* of the image */
+  CeldPipelineLayer layer[CELD_N_LAYERS];         /* of any size; borrowed until celd_pipeline_new returns */
+  CeldSettings      settings;                     /* levels are in [0,1] whatever their encoding says */
+  const char       *relations;                    /* may be NULL */
+} CeldPipelineInput;
+
+#define CELD_PIPELINE_ERROR celd_pipeline_error_quark ()
+typedef enum { CELD_PIPELINE_FAILED, CELD_PIPELINE_CANCELLED } CeldPipelineError;
+GQuark celd_pipeline_error_quark (void);
+
+typedef struct CeldPipeline CeldPipeline;
+
+/* Reads all input.  NULL and *error, a sentence for the artist, if it makes no sense. */
+CeldPipeline *celd_pipeline_new  (const CeldPipelineInput *input, GError **error);
+void          celd_pipeline_free (CeldPipeline *pipeline); /* accepts NULL */
+
+/* Is called with the fraction that is done, which never decreases, and a name of the step; FALSE cancels. */
+typedef gboolean (*CeldPipelineProgress) (gpointer data, double done, const char *step);
+
+/* Makes pictures: the bits 1 << CELD_PICTURE_... of `wanted`.  progress may be NULL. */
+gboolean celd_pipeline_make (CeldPipeline *pipeline, guint wanted, CeldPipelineProgress progress, gpointer data,
+                             GError **error);
+
+/* Writes a picture that was made into a buffer, from its pixel 0,0 on, in whatever format that has. */
+gboolean celd_pipeline_write (CeldPipeline *pipeline, CeldPicture picture, GeglBuffer *buffer, GError **error);
+
+/* What the artist should know of the pictures that were made, a line for each problem; NULL: nothing.  Free it. */
+char *celd_pipeline_problems (CeldPipeline *pipeline);
+
+#endif

@@ -1,0 +1,109 @@
+/* Runs the pipeline of the plug-ins on an example, and writes each picture as numbers, four 32-bit floats a pixel in
+ * linear light.
+ *
+ *   run-pipeline OUT NAME=FILE...     NAME is drawing, scribbles, arrows, ...; writes OUT/PICTURE.raw
+ *
+ * Scribbles and arrows are cropped to what is painted, and given with their offset, as layers of a host are.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "pipeline.h"
+
+#include <stdio.h>
+#include <string.h>
+
+static const char *const roles[CELD_N_LAYERS] = { "drawing", "scribbles", "arrows", "contours", "corrections",
+                                                  "hidden" };
+static const char *const pictures[CELD_N_PICTURES] = { "regions", "levels", "depth", "normals", "shading", "lit",
+                                                       "enhanced", "suggestions" };
+
+static GeglBuffer *
+load (const char *path)
+{
+  GeglBuffer *buffer = NULL;
+  GeglNode   *graph = gegl_node_new ();
+  GeglNode   *source = gegl_node_new_child (graph, "operation", "gegl:load", "path", path, NULL);
+  GeglNode   *sink = gegl_node_new_child (graph, "operation", "gegl:buffer-sink", "buffer", &buffer, NULL);
+
+  gegl_node_link (source, sink);
+  gegl_node_process (sink);
+  g_object_unref (graph);
+  return buffer;
+}
+
+/* The part of a layer that is painted, in a buffer that begins at 0,0. */
+static CeldPipelineLayer
+crop (GeglBuffer *whole)
+{
+  const GeglRectangle *r = gegl_buffer_get_extent (whole);
+  GeglRectangle        box = { r->width, r->height, 0, 0 };
+  guint8              *pixels = g_malloc (4 * (gsize) r->width * (gsize) r->height);
+  CeldPipelineLayer    layer;
+
+  gegl_buffer_get (whole, r, 1, babl_format ("R'G'B'A u8"), pixels, GEGL_AUTO_ROWSTRIDE, GEGL_ABYSS_NONE);
+  for (int y = 0; y < r->height; y++)
+    for (int x = 0; x < r->width; x++)
+      if (pixels[4 * (y * r->width + x) + 3])
+        gegl_rectangle_bounding_box (&box, &box, GEGL_RECTANGLE (x, y, 1, 1));
+  layer = (CeldPipelineLayer) { gegl_buffer_new (GEGL_RECTANGLE (0, 0, box.width, box.height),
+                                                 babl_format ("R'G'B'A u8")), box.x, box.y };
+  gegl_buffer_copy (whole, &box, GEGL_ABYSS_NONE, layer.buffer, GEGL_RECTANGLE (0, 0, 0, 0));
+  g_object_unref (whole);
+  g_free (pixels);
+  return layer;
+}
+
+static void
+write_raw (const char *folder, const char *name, GeglBuffer *buffer)
+{
+  const GeglRectangle *r = gegl_buffer_get_extent (buffer);
+  gsize                size = 4 * sizeof (float) * (gsize) r->width * (gsize) r->height;
+  float               *pixels = g_malloc (size);
+  char                *path = g_strdup_printf ("%s/%s.raw", folder, name);
+
+  gegl_buffer_get (buffer, r, 1, babl_format ("RGBA float"), pixels, GEGL_AUTO_ROWSTRIDE, GEGL_ABYSS_NONE);
+  g_file_set_contents (path, (char *) pixels, (gssize) size, NULL);
+  g_free (path);
+  g_free (pixels);
+}
+
+int
+main (int argc, char **argv)
+{
+  CeldPipelineInput input = { .settings = celd_settings () };
+  CeldPipeline     *pipeline;
+  GError           *error = NULL;
+
+  gegl_init (NULL, NULL);
+  for (int i = 2; i < argc; i++)
+    for (int role = 0; role < CELD_N_LAYERS; role++)
+      if (g_str_has_prefix (argv[i], roles[role]) && argv[i][strlen (roles[role])] == '=')
+        {
+          GeglBuffer *buffer = load (argv[i] + strlen (roles[role]) + 1);
+
+          input.layer[role] = role ? crop (buffer) : (CeldPipelineLayer) { buffer, 0, 0 };
+        }
+  input.width  = gegl_buffer_get_width (input.layer[0].buffer);
+  input.height = gegl_buffer_get_height (input.layer[0].buffer);
+  pipeline     = celd_pipeline_new (&input, &error);
+  if (!pipeline || !celd_pipeline_make (pipeline, (1u << CELD_N_PICTURES) - 1, NULL, NULL, &error))
+    {
+      fprintf (stderr, "%s\n", error->message);
+      return 1;
+    }
+  for (int i = 0; i < CELD_N_PICTURES; i++)
+    {
+      GeglBuffer *buffer = gegl_buffer_new (GEGL_RECTANGLE (0, 0, input.width, input.height),
+                                            babl_format ("RGBA float"));
+
+      if (!celd_pipeline_write (pipeline, (CeldPicture) i, buffer, &error))
+        return 1;
+      write_raw (argv[1], pictures[i], buffer);
+      g_object_unref (buffer);
+    }
+  celd_pipeline_free (pipeline);
+  for (int role = 0; role < CELD_N_LAYERS; role++)
+    g_clear_object (&input.layer[role].buffer);
+  gegl_exit ();
+  return 0;
+}

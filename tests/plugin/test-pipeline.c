@@ -1,0 +1,227 @@
+/* The pipeline of the plug-ins on the page of the operations' tests: layers at offsets, in formats of hosts, progress,
+ * cancel, and input that makes no sense.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "core-page.h"
+#include "pipeline.h"
+
+#define BIT(picture) (1u << CELD_PICTURE_##picture)
+
+static CeldPipelineInput
+page_input (void)
+{
+  CeldPipelineInput input = { WIDTH, HEIGHT, { { NULL, 0, 0 } }, celd_settings (), NULL };
+
+  input.layer[CELD_LAYER_DRAWING].buffer   = drawing;
+  input.layer[CELD_LAYER_SCRIBBLES].buffer = scribbles;
+  input.layer[CELD_LAYER_ARROWS].buffer    = arrows;
+  return input;
+}
+
+/* One picture of this input in a buffer of this format, read as another. */
+static bool
+make (const CeldPipelineInput *input, CeldPicture picture, const char *kept, const char *format, void *pixels)
+{
+  CeldPipeline *pipeline = celd_pipeline_new (input, NULL);
+  GeglBuffer   *buffer = gegl_buffer_new (GEGL_RECTANGLE (0, 0, WIDTH, HEIGHT), babl_format (kept));
+  bool          good = pipeline && celd_pipeline_make (pipeline, 1u << picture, NULL, NULL, NULL) &&
+                       celd_pipeline_write (pipeline, picture, buffer, NULL);
+
+  gegl_buffer_get (buffer, NULL, 1, babl_format (format), pixels, GEGL_AUTO_ROWSTRIDE, GEGL_ABYSS_NONE);
+  g_object_unref (buffer);
+  celd_pipeline_free (pipeline);
+  return good;
+}
+
+static void
+pictures_are_those_of_core (void)
+{
+  CeldPipelineInput input = page_input ();
+  static uint8_t    painted[4 * PIXELS];
+
+  CHECK (make (&input, CELD_PICTURE_REGIONS, "R'G'B'A u8", "R'G'B'A u8", painted));
+  CHECK (!memcmp (painted, colours.data, sizeof painted));
+  CHECK (make (&input, CELD_PICTURE_LEVELS, "Y float", "Y float", result));
+  SAME (levels.data, 1);
+  CHECK (make (&input, CELD_PICTURE_DEPTH, "Y float", "Y float", result));
+  SAME (depth.data, 1);
+  CHECK (make (&input, CELD_PICTURE_SHADING, "Y float", "Y float", result));
+  SAME (shading.data, 1);
+}
+
+/* Whatever the buffer is encoded as, its numbers are the normals; depth is linear light. */
+static void
+numbers_of_normals_are_those_of_the_buffer (void)
+{
+  CeldPipelineInput input = page_input ();
+  static uint8_t    bytes[3 * PIXELS];
+  const float      *stored = stored_normals (false);
+  int               most = 0;
+
+  CHECK (make (&input, CELD_PICTURE_NORMALS, "RGB float", "RGB float", result));
+  SAME (stored, 3);
+  CHECK (make (&input, CELD_PICTURE_NORMALS, "R'G'B'A float", "R'G'B' float", result));
+  SAME (stored, 3);
+  CHECK (make (&input, CELD_PICTURE_NORMALS, "R'G'B' u8", "R'G'B' u8", bytes));
+  for (int i = 0; i < 3 * PIXELS; i++)
+    most = MAX (most, abs (bytes[i] - (int) lrintf (255 * stored[i])));
+  CHECK (most <= 1);
+  CHECK (make (&input, CELD_PICTURE_DEPTH, "R'G'B'A float", "Y float", result));
+  SAME (depth.data, 1);
+}
+
+/* A part of a layer, and its offset, is the layer where nothing else is painted. */
+static void
+layers_may_be_smaller_than_the_image (void)
+{
+  CeldPipelineInput input = page_input ();
+  GeglBuffer       *part = gegl_buffer_new (GEGL_RECTANGLE (0, 0, 60, 30), babl_format ("R'G'B'A u8"));
+  GeglBuffer       *larger = gegl_buffer_new (GEGL_RECTANGLE (0, 0, WIDTH + 20, HEIGHT + 9), babl_format ("R'G'B'A u8"));
+
+  gegl_buffer_copy (arrows, GEGL_RECTANGLE (40, 35, 60, 30), GEGL_ABYSS_NONE, part, GEGL_RECTANGLE (0, 0, 0, 0));
+  gegl_buffer_copy (scribbles, NULL, GEGL_ABYSS_NONE, larger, GEGL_RECTANGLE (13, 5, 0, 0));
+  input.layer[CELD_LAYER_ARROWS]    = (CeldPipelineLayer) { part, 40, 35 };
+  input.layer[CELD_LAYER_SCRIBBLES] = (CeldPipelineLayer) { larger, -13, -5 };
+  CHECK (make (&input, CELD_PICTURE_DEPTH, "Y float", "Y float", result));
+  SAME (depth.data, 1);
+  input.layer[CELD_LAYER_ARROWS].x = 0; /* there the arrow points elsewhere */
+  CHECK (make (&input, CELD_PICTURE_DEPTH, "Y float", "Y float", result));
+  CHECK (difference (result, depth.data, PIXELS) > 0.1);
+  g_object_unref (part);
+  g_object_unref (larger);
+}
+
+static void
+relations_count_as_arrows_do (void)
+{
+  CeldPipelineInput input = page_input ();
+
+  input.layer[CELD_LAYER_ARROWS].buffer = NULL;
+  input.relations = "45,48 > 90,48";
+  CHECK (make (&input, CELD_PICTURE_LEVELS, "Y float", "Y float", result));
+  SAME (levels.data, 1);
+}
+
+/* ------------------------------------------------------------------ progress */
+
+typedef struct { double last; int calls, most; } Watch;
+
+static gboolean
+watch (gpointer data, double done, const char *step)
+{
+  Watch *w = data;
+
+  CHECK (done >= w->last && done <= 1);
+  CHECK (step && *step);
+  w->last = done;
+  return ++w->calls < w->most;
+}
+
+static void
+progress_rises_and_cancels (void)
+{
+  CeldPipelineInput input = page_input ();
+  CeldPipeline     *pipeline = celd_pipeline_new (&input, NULL);
+  Watch             all = { 0, 0, G_MAXINT }, some = { 0, 0, 1 };
+  GError           *error = NULL;
+
+  CHECK (!celd_pipeline_make (pipeline, BIT (LIT), watch, &some, &error));
+  CHECK (g_error_matches (error, CELD_PIPELINE_ERROR, CELD_PIPELINE_CANCELLED));
+  CHECK (some.calls == 1);
+  g_clear_error (&error);
+  CHECK (celd_pipeline_make (pipeline, BIT (LIT) | BIT (DEPTH), watch, &all, &error)); /* goes on after a cancel */
+  CHECK (all.calls > 5 && all.last > 0.9);
+  celd_pipeline_free (pipeline);
+}
+
+/* ------------------------------------------------------------------ messages */
+
+/* Whether this input is refused with a message that has these words. */
+static bool
+refused (const CeldPipelineInput *input, const char *words)
+{
+  GError       *error = NULL;
+  CeldPipeline *pipeline = celd_pipeline_new (input, &error);
+  bool          good = pipeline && celd_pipeline_make (pipeline, BIT (DEPTH), NULL, NULL, &error);
+  bool          said = error && strstr (error->message, words);
+
+  if (error && !said)
+    fprintf (stderr, "%s\n", error->message);
+  celd_pipeline_free (pipeline);
+  g_clear_error (&error);
+  return !good && said;
+}
+
+static void
+input_without_sense_is_refused (void)
+{
+  static const float blank[PIXELS];
+  CeldPipelineInput  input = page_input ();
+  GeglBuffer        *page = page_buffer ("Y' u8", "Y' float", blank);
+
+  input.width = 20001;
+  CHECK (refused (&input, "20001 x 80 pixels"));
+  input = page_input ();
+  input.layer[CELD_LAYER_DRAWING].buffer = NULL;
+  CHECK (refused (&input, "no drawing"));
+  input.layer[CELD_LAYER_DRAWING].buffer = page;
+  CHECK (refused (&input, "has no lines"));
+  input = page_input ();
+  input.layer[CELD_LAYER_ARROWS].x = WIDTH;
+  CHECK (refused (&input, "the arrows lies outside the image"));
+  input = page_input ();
+  input.layer[CELD_LAYER_CONTOURS].buffer = scribbles;
+  CHECK (refused (&input, "chosen as scribbles and as contours"));
+  input = page_input ();
+  input.relations = "12,34 < x";
+  CHECK (refused (&input, "line 1, column 9"));
+  input = page_input ();
+  input.settings.tolerance = 5;
+  CHECK (refused (&input, "outside its range"));
+  input = page_input ();
+  input.layer[CELD_LAYER_SCRIBBLES].buffer = input.layer[CELD_LAYER_ARROWS].buffer = NULL;
+  CHECK (refused (&input, "nothing to go by"));
+  g_object_unref (page);
+}
+
+static void
+problems_are_told (void)
+{
+  CeldPipelineInput input = page_input ();
+  CeldPipeline     *pipeline = celd_pipeline_new (&input, NULL);
+  char             *text;
+
+  CHECK (celd_pipeline_make (pipeline, BIT (DEPTH), NULL, NULL, NULL));
+  text = celd_pipeline_problems (pipeline);
+  CHECK (text == NULL);
+  celd_pipeline_free (pipeline);
+
+  input.relations = "90,40 > 45,40"; /* contradicts the arrow */
+  pipeline = celd_pipeline_new (&input, NULL);
+  CHECK (celd_pipeline_make (pipeline, BIT (DEPTH), NULL, NULL, NULL));
+  text = celd_pipeline_problems (pipeline);
+  CHECK (text && strstr (text, "line 1, column 1"));
+  g_free (text);
+  celd_pipeline_free (pipeline);
+}
+
+int
+main (void)
+{
+  gegl_init (NULL, NULL);
+  make_page ();
+  RUN (core_makes_all_results_of_the_page);
+  RUN (pictures_are_those_of_core);
+  RUN (numbers_of_normals_are_those_of_the_buffer);
+  RUN (layers_may_be_smaller_than_the_image);
+  RUN (relations_count_as_arrows_do);
+  RUN (progress_rises_and_cancels);
+  RUN (input_without_sense_is_refused);
+  RUN (problems_are_told);
+  drop_page ();
+  celd_palette_clear (&palette);
+  celd_relations_clear (&relations);
+  gegl_exit ();
+  return DONE;
+}
