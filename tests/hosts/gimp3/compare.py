@@ -68,12 +68,22 @@ def compare_layers(out, drawing):
     return good
 
 
+def checks_of_plugin(out):
+    """What the tests of the plug-in found, without and with a screen."""
+    for name in ('plugin.txt', 'plugin-screen.txt'):
+        with open(os.path.join(out, name)) as checks:
+            for line in checks:
+                print(line.rstrip())
+                yield line.startswith('ok')
+
+
 def main():
     out = sys.argv[1]
     results = [compare(out, bits, name, reference(out, wanted)) for name, wanted in WANTED.items() for bits in (8, 32)]
     results.append(compare(out, 32, 'relief', reference(out, 'relief'), 1e-3))
     results += [compare(out, 32, 'stereo', reference(out, 'stereo')[:, :, :3])]
     results += [compare_layers(out, drawing) for drawing in ('people', 'monkey', 'frog')]
+    results += checks_of_plugin(out)
     print(f'{sum(results)} passed, {len(results) - sum(results)} failed')
     return 0 if all(results) else 1
 

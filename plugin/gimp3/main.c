@@ -1,0 +1,79 @@
+/* The plug-in and its procedures.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "gimp3.h"
+
+#define MENU "<Image>/Cartoon Depth"
+
+static const CeldProcedure *const procedures[] = { &celd_setup_procedure, &celd_popup_procedure };
+
+typedef struct { GimpPlugIn parent_instance; } CeldPlugIn;
+typedef struct { GimpPlugInClass parent_class; } CeldPlugInClass;
+
+GType celd_plug_in_get_type (void);
+G_DEFINE_TYPE (CeldPlugIn, celd_plug_in, GIMP_TYPE_PLUG_IN)
+
+static GList *
+query_procedures (GimpPlugIn *plug_in)
+{
+  GList *names = NULL;
+
+  (void) plug_in;
+  for (gsize i = 0; i < G_N_ELEMENTS (procedures); i++)
+    names = g_list_append (names, g_strdup (procedures[i]->name));
+  return names;
+}
+
+static GimpProcedure *
+create_procedure (GimpPlugIn *plug_in, const char *name)
+{
+  for (gsize i = 0; i < G_N_ELEMENTS (procedures); i++)
+    if (!g_strcmp0 (procedures[i]->name, name))
+      {
+        const CeldProcedure *p = procedures[i];
+        GimpProcedure       *procedure = gimp_image_procedure_new (plug_in, name, GIMP_PDB_PROC_TYPE_PLUGIN, p->run,
+                                                                   NULL, NULL);
+
+        gimp_procedure_set_image_types (procedure, "*");
+        gimp_procedure_set_sensitivity_mask (procedure, GIMP_PROCEDURE_SENSITIVE_DRAWABLE |
+                                                          GIMP_PROCEDURE_SENSITIVE_DRAWABLES |
+                                                          GIMP_PROCEDURE_SENSITIVE_NO_DRAWABLES);
+        gimp_procedure_set_menu_label (procedure, p->menu_label);
+        gimp_procedure_add_menu_path (procedure, MENU);
+        gimp_procedure_set_documentation (procedure, p->blurb, p->help, NULL);
+        gimp_procedure_set_attribution (procedure, "The authors of celdepth", "LGPL-3.0-or-later", "2026");
+        p->add_arguments (procedure);
+        return procedure;
+      }
+  return NULL;
+}
+
+/* Without this GIMP warns of translations that it does not find. */
+static gboolean
+set_i18n (GimpPlugIn *plug_in, const char *procedure_name, char **gettext_domain, char **catalog_dir)
+{
+  (void) plug_in;
+  (void) procedure_name;
+  (void) gettext_domain;
+  (void) catalog_dir;
+  return FALSE;
+}
+
+static void
+celd_plug_in_class_init (CeldPlugInClass *klass)
+{
+  GimpPlugInClass *plug_in_class = GIMP_PLUG_IN_CLASS (klass);
+
+  plug_in_class->query_procedures = query_procedures;
+  plug_in_class->create_procedure = create_procedure;
+  plug_in_class->set_i18n         = set_i18n;
+}
+
+static void
+celd_plug_in_init (CeldPlugIn *plug_in)
+{
+  (void) plug_in;
+}
+
+GIMP_MAIN (celd_plug_in_get_type ())

@@ -1,0 +1,302 @@
+/* Arguments of Pop-up: layers, pictures, and settings, which are made from the table of settings.  And how they are
+ * remembered with an image: as a parasite, a key file.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "gimp3.h"
+
+#include <string.h>
+
+#define PARASITE "celdepth-popup"
+#define GROUP "pop-up"
+
+const char *const celd_layer_arguments[CELD_N_LAYERS] = {
+  [CELD_LAYER_DRAWING]  = "drawing",  [CELD_LAYER_SCRIBBLES]   = "scribbles",   [CELD_LAYER_ARROWS] = "arrows",
+  [CELD_LAYER_CONTOURS] = "contours", [CELD_LAYER_CORRECTIONS] = "corrections", [CELD_LAYER_HIDDEN] = "hidden",
+};
+
+static const char *const layer_help[CELD_N_LAYERS] = {
+  [CELD_LAYER_DRAWING]     = "The line drawing; in colours it is also the art that is lit",
+  [CELD_LAYER_SCRIBBLES]   = "One stroke over each part, in a colour of its own",
+  [CELD_LAYER_ARROWS]      = "Arrows that point from nearer to farther parts",
+  [CELD_LAYER_CONTOURS]    = "Virtual contours. Red: a boundary of regions and depth; blue: a boundary of regions "
+                             "across which depth stays smooth; green: ink that is not a boundary",
+  [CELD_LAYER_CORRECTIONS] = "Strokes over lines, in the colour of the part that a line belongs to",
+  [CELD_LAYER_HIDDEN]      = "What is hidden: strokes in a part's colour where it goes on behind nearer ones, black "
+                             "where it does not",
+};
+
+const char *const celd_picture_arguments[CELD_POPUP_PICTURES] = {
+  [CELD_PICTURE_REGIONS] = "regions", [CELD_PICTURE_LEVELS]  = "levels",  [CELD_PICTURE_DEPTH]    = "depth",
+  [CELD_PICTURE_NORMALS] = "normals", [CELD_PICTURE_SHADING] = "shading", [CELD_PICTURE_LIT]      = "lit",
+  [CELD_PICTURE_ENHANCED] = "enhanced",
+};
+
+static const struct { const char *label, *help; gboolean usual; } pictures[CELD_POPUP_PICTURES] = {
+  [CELD_PICTURE_REGIONS]  = { "_Regions", "The parts as flat colours", TRUE },
+  [CELD_PICTURE_LEVELS]   = { "Le_vels", "The depth of each part, in steps; nearer is lighter", FALSE },
+  [CELD_PICTURE_DEPTH]    = { "_Depth", "Smooth depth; nearer is lighter", TRUE },
+  [CELD_PICTURE_NORMALS]  = { "_Normal map", "Which way the rounded parts face, for lighting elsewhere", FALSE },
+  [CELD_PICTURE_SHADING]  = { "S_hading", "The light alone, as greys", FALSE },
+  [CELD_PICTURE_LIT]      = { "_Lit drawing", "The drawing with light on rounded parts", TRUE },
+  [CELD_PICTURE_ENHANCED] = { "Drawing with sha_dows", "The drawing with soft shadows behind nearer parts", FALSE },
+};
+
+/* Settings of core that are offered; `choices` is the number of choices, if not all are. */
+static const struct { const char *name; int choices; } offered[] = {
+  { .name = "light-azimuth" }, { .name = "light-elevation" }, { .name = "ambient" },
+  { .name = "light-model", .choices = CELD_MODEL_MATCAP }, { .name = "toon-steps" }, { .name = "specular" },
+  { .name = "rim-light" }, { .name = "bulge" }, { .name = "bevel" },
+  { .name = "shadow-strength" }, { .name = "shadow-size" }, { .name = "shadow-offset" },
+  { .name = "ink" }, { .name = "ink-threshold" }, { .name = "arrow-style" }, { .name = "hardness" },
+  { .name = "close-gaps" }, { .name = "flats" }, { .name = "same-colour" }, { .name = "suggest" },
+  { .name = "on-cycle" }, { .name = "expansion" },
+};
+
+/* ------------------------------------------------------------------ arguments */
+
+static void
+add_choice (GimpProcedure *procedure, const CeldSettingInfo *row, int choices)
+{
+  GimpChoice *choice = gimp_choice_new ();
+
+  for (int i = 0; i < (choices ? choices : (int) row->choices); i++)
+    gimp_choice_add (choice, row->choice[i].nick, i, row->choice[i].label, NULL);
+  gimp_procedure_add_choice_argument (procedure, row->name, row->label, row->help, choice,
+                                      row->choice[(int) row->usual].nick, G_PARAM_READWRITE);
+}
+
+static void
+add_setting (GimpProcedure *procedure, const CeldSettingInfo *row, int choices)
+{
+  switch (row->type)
+    {
+    case CELD_SETTING_NUMBER: /* sliders have the range that makes sense */
+      gimp_procedure_add_double_argument (procedure, row->name, row->label, row->help, row->shown.least,
+                                          row->shown.most, row->usual, G_PARAM_READWRITE);
+      break;
+    case CELD_SETTING_INTEGER:
+      gimp_procedure_add_int_argument (procedure, row->name, row->label, row->help, (int) row->least, (int) row->most,
+                                       (int) row->usual, G_PARAM_READWRITE);
+      break;
+    case CELD_SETTING_SWITCH:
+      gimp_procedure_add_boolean_argument (procedure, row->name, row->label, row->help, row->usual != 0,
+                                           G_PARAM_READWRITE);
+      break;
+    case CELD_SETTING_CHOICE:
+      add_choice (procedure, row, choices);
+      break;
+    case CELD_SETTING_COLOUR:
+    case CELD_SETTING_TEXT:
+      break; /* none is offered */
+    }
+}
+
+void
+celd_settings_add_arguments (GimpProcedure *procedure)
+{
+  for (int role = 0; role < CELD_N_LAYERS; role++)
+    gimp_procedure_add_layer_argument (procedure, celd_layer_arguments[role], celd_layer_role_name ((CeldLayerRole) role),
+                                       layer_help[role], TRUE, G_PARAM_READWRITE);
+  for (int i = 0; i < CELD_POPUP_PICTURES; i++)
+    gimp_procedure_add_boolean_argument (procedure, celd_picture_arguments[i], pictures[i].label, pictures[i].help,
+                                         pictures[i].usual, G_PARAM_READWRITE);
+  for (gsize i = 0; i < G_N_ELEMENTS (offered); i++)
+    add_setting (procedure, celd_setting_find (offered[i].name), offered[i].choices);
+  gimp_procedure_add_string_argument (procedure, "relations", "Relations",
+                                      "Relations as text, beside arrows: 120,80 > 300,95 or #ff0000 > #0000ff", "",
+                                      G_PARAM_READWRITE);
+}
+
+CeldSettings
+celd_settings_chosen (GimpProcedureConfig *config)
+{
+  CeldSettings settings = celd_settings ();
+
+  for (gsize i = 0; i < G_N_ELEMENTS (offered); i++)
+    {
+      const CeldSettingInfo *row = celd_setting_find (offered[i].name);
+      double                 number = 0;
+      int                    whole = 0;
+
+      if (row->type == CELD_SETTING_NUMBER)
+        g_object_get (config, row->name, &number, NULL);
+      else if (row->type == CELD_SETTING_CHOICE)
+        whole = gimp_procedure_config_get_choice_id (config, row->name);
+      else
+        g_object_get (config, row->name, &whole, NULL);
+      celd_setting_set (row, row->type == CELD_SETTING_NUMBER ? number : whole, &settings);
+    }
+  return settings;
+}
+
+guint
+celd_pictures_chosen (GimpProcedureConfig *config)
+{
+  guint wanted = 0;
+
+  for (int i = 0; i < CELD_POPUP_PICTURES; i++)
+    {
+      gboolean chosen;
+
+      g_object_get (config, celd_picture_arguments[i], &chosen, NULL);
+      wanted |= chosen ? 1u << i : 0;
+    }
+  return wanted;
+}
+
+/* Layers are kept by libgimp as long as the plug-in runs. */
+void
+celd_layers_chosen (GimpProcedureConfig *config, GimpLayer *layer[CELD_N_LAYERS])
+{
+  for (int role = 0; role < CELD_N_LAYERS; role++)
+    {
+      g_object_get (config, celd_layer_arguments[role], &layer[role], NULL);
+      if (layer[role])
+        g_object_unref (layer[role]);
+    }
+}
+
+/* ------------------------------------------------------------------ remembering */
+
+/* Whether this argument is kept as text: all but layers and what the class of procedures adds. */
+static gboolean
+is_kept (const GParamSpec *spec)
+{
+  for (gsize i = 0; i < G_N_ELEMENTS (offered); i++)
+    if (!strcmp (spec->name, offered[i].name))
+      return TRUE;
+  for (int i = 0; i < CELD_POPUP_PICTURES; i++)
+    if (!strcmp (spec->name, celd_picture_arguments[i]))
+      return TRUE;
+  return !strcmp (spec->name, "relations");
+}
+
+static void
+keep_argument (GKeyFile *file, GObject *config, const GParamSpec *spec)
+{
+  GValue value = G_VALUE_INIT;
+
+  g_value_init (&value, spec->value_type);
+  g_object_get_property (config, spec->name, &value);
+  if (G_VALUE_HOLDS_DOUBLE (&value))
+    g_key_file_set_double (file, GROUP, spec->name, g_value_get_double (&value));
+  else if (G_VALUE_HOLDS_INT (&value))
+    g_key_file_set_integer (file, GROUP, spec->name, g_value_get_int (&value));
+  else if (G_VALUE_HOLDS_BOOLEAN (&value))
+    g_key_file_set_boolean (file, GROUP, spec->name, g_value_get_boolean (&value));
+  else if (G_VALUE_HOLDS_STRING (&value) && g_value_get_string (&value))
+    g_key_file_set_string (file, GROUP, spec->name, g_value_get_string (&value));
+  g_value_unset (&value);
+}
+
+/* What is missing or damaged stays as it is; values out of range are brought into it. */
+static void
+set_argument (GKeyFile *file, GObject *config, GParamSpec *spec)
+{
+  GValue  value = G_VALUE_INIT;
+  GError *error = NULL;
+  char   *text;
+
+  g_value_init (&value, spec->value_type);
+  if (G_VALUE_HOLDS_DOUBLE (&value))
+    g_value_set_double (&value, g_key_file_get_double (file, GROUP, spec->name, &error));
+  else if (G_VALUE_HOLDS_INT (&value))
+    g_value_set_int (&value, g_key_file_get_integer (file, GROUP, spec->name, &error));
+  else if (G_VALUE_HOLDS_BOOLEAN (&value))
+    g_value_set_boolean (&value, g_key_file_get_boolean (file, GROUP, spec->name, &error));
+  else if (G_VALUE_HOLDS_STRING (&value))
+    {
+      text = g_key_file_get_string (file, GROUP, spec->name, &error);
+      g_value_take_string (&value, text);
+    }
+  if (!error)
+    {
+      g_param_value_validate (spec, &value);
+      g_object_set_property (config, spec->name, &value);
+    }
+  g_clear_error (&error);
+  g_value_unset (&value);
+}
+
+/* The layers that were chosen although their names say something else: by tattoos, which stay the same in files. */
+static void
+keep_layers (GKeyFile *file, GimpImage *image, GimpProcedureConfig *config)
+{
+  GimpLayer *named[CELD_N_LAYERS], *chosen[CELD_N_LAYERS];
+
+  celd_layers_find (image, named);
+  celd_layers_chosen (config, chosen);
+  for (int role = 0; role < CELD_N_LAYERS; role++)
+    if (chosen[role] != named[role])
+      g_key_file_set_integer (file, GROUP, celd_layer_arguments[role],
+                              chosen[role] ? (int) gimp_item_get_tattoo (GIMP_ITEM (chosen[role])) : 0);
+}
+
+static void
+set_layers (GKeyFile *file, GimpImage *image, GimpProcedureConfig *config)
+{
+  GimpLayer *layer[CELD_N_LAYERS];
+
+  celd_layers_find (image, layer);
+  for (int role = 0; role < CELD_N_LAYERS; role++)
+    if (g_key_file_has_key (file, GROUP, celd_layer_arguments[role], NULL))
+      {
+        int        tattoo = g_key_file_get_integer (file, GROUP, celd_layer_arguments[role], NULL);
+        GimpLayer *kept = tattoo > 0 ? gimp_image_get_layer_by_tattoo (image, (guint) tattoo) : NULL;
+
+        if (kept || !tattoo) /* a layer that is gone gives way to the name */
+          layer[role] = kept;
+      }
+  if (!layer[CELD_LAYER_DRAWING])
+    layer[CELD_LAYER_DRAWING] = celd_layers_lowest (image, layer);
+  for (int role = 0; role < CELD_N_LAYERS; role++)
+    g_object_set (config, celd_layer_arguments[role], layer[role], NULL);
+}
+
+void
+celd_settings_remember (GimpImage *image, GimpProcedureConfig *config)
+{
+  GKeyFile     *file = g_key_file_new ();
+  guint         n;
+  GParamSpec  **specs = g_object_class_list_properties (G_OBJECT_GET_CLASS (config), &n);
+  char         *text;
+  gsize         length;
+  GimpParasite *parasite;
+
+  for (guint i = 0; i < n; i++)
+    if (is_kept (specs[i]))
+      keep_argument (file, G_OBJECT (config), specs[i]);
+  keep_layers (file, image, config);
+  text     = g_key_file_to_data (file, &length, NULL);
+  parasite = gimp_parasite_new (PARASITE, GIMP_PARASITE_PERSISTENT | GIMP_PARASITE_UNDOABLE, (guint32) length + 1, text);
+  gimp_image_attach_parasite (image, parasite);
+  gimp_parasite_free (parasite);
+  g_free (text);
+  g_free (specs);
+  g_key_file_unref (file);
+}
+
+void
+celd_settings_recall (GimpImage *image, GimpProcedureConfig *config)
+{
+  GKeyFile     *file = g_key_file_new ();
+  GimpParasite *parasite = gimp_image_get_parasite (image, PARASITE);
+  guint         n;
+  GParamSpec  **specs = g_object_class_list_properties (G_OBJECT_GET_CLASS (config), &n);
+
+  if (parasite)
+    {
+      guint32     length = 0;
+      const char *text = gimp_parasite_get_data (parasite, &length);
+
+      g_key_file_load_from_data (file, text, length ? length - 1 : 0, G_KEY_FILE_NONE, NULL);
+      for (guint i = 0; i < n; i++)
+        if (is_kept (specs[i]))
+          set_argument (file, G_OBJECT (config), specs[i]);
+      gimp_parasite_free (parasite);
+    }
+  set_layers (file, image, config);
+  g_free (specs);
+  g_key_file_unref (file);
+}

@@ -1,0 +1,73 @@
+/* Names of layers, and colours for scribbles.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "layer-names.h"
+
+#include <string.h>
+
+/* Folded as `fold` does; English first, then German and Czech. */
+static const char *const names[CELD_N_LAYERS][8] = {
+  [CELD_LAYER_DRAWING]     = { "drawing", "line art", "lineart", "zeichnung", "linien", "kresba", "linky" },
+  [CELD_LAYER_SCRIBBLES]   = { "scribbles", "scribble", "kritzeleien", "kritzel", "striche", "cmaranice", "tahy" },
+  [CELD_LAYER_ARROWS]      = { "arrows", "arrow", "pfeile", "pfeil", "sipky", "sipka" },
+  [CELD_LAYER_CONTOURS]    = { "contours", "contour", "konturen", "umrisse", "kontury", "obrysy" },
+  [CELD_LAYER_CORRECTIONS] = { "corrections", "correction", "korrekturen", "korrektur", "opravy", "oprava" },
+  [CELD_LAYER_HIDDEN]      = { "hidden", "verdeckt", "verdecktes", "verborgen", "skryte", "zakryte" },
+};
+
+static const char *const titles[CELD_N_LAYERS] = {
+  [CELD_LAYER_DRAWING]  = "Drawing",  [CELD_LAYER_SCRIBBLES]   = "Scribbles",   [CELD_LAYER_ARROWS] = "Arrows",
+  [CELD_LAYER_CONTOURS] = "Contours", [CELD_LAYER_CORRECTIONS] = "Corrections", [CELD_LAYER_HIDDEN] = "Hidden",
+};
+
+/* Farthest points in L*a*b* among colours of six steps a channel: each is at least 33 from every other one, and from
+ * white, grey and black.  Strong colours come first. */
+const CeldLabelColour celd_label_colours[CELD_N_LABEL_COLOURS] = {
+  { 0xff0000, "Red" },       { 0x0000ff, "Blue" },      { 0x00ff00, "Green" },      { 0xffff00, "Yellow" },
+  { 0xff00ff, "Magenta" },   { 0x00ccff, "Sky" },       { 0xff9900, "Orange" },     { 0x990099, "Purple" },
+  { 0x00ffcc, "Aquamarine" }, { 0x993300, "Brown" },    { 0xff6666, "Coral" },      { 0x006699, "Petrol" },
+  { 0x669900, "Moss" },      { 0x6666ff, "Cornflower" }, { 0xffff99, "Cream" },     { 0xff0099, "Pink" },
+  { 0x339966, "Sea green" }, { 0xcc9966, "Sand" },      { 0xcc99ff, "Lilac" },      { 0x990033, "Crimson" },
+  { 0x0099ff, "Azure" },     { 0x99ff66, "Lime" },      { 0x003399, "Navy" },       { 0xcc6699, "Mallow" },
+};
+
+/* Lower case without accents, spaces at the ends, and the ending of a file. */
+static char *
+fold (const char *name)
+{
+  char   *decomposed = g_utf8_normalize (name, -1, G_NORMALIZE_ALL);
+  char   *lower = g_utf8_casefold (decomposed ? decomposed : "", -1);
+  GString *folded = g_string_new (NULL);
+  char   *dot;
+
+  for (const char *c = lower; *c; c = g_utf8_next_char (c))
+    if (!g_unichar_ismark (g_utf8_get_char (c)))
+      g_string_append_unichar (folded, g_utf8_get_char (c));
+  dot = strrchr (folded->str, '.');
+  if (dot && strlen (dot) <= 5)
+    *dot = 0;
+  g_free (decomposed);
+  g_free (lower);
+  return g_strstrip (g_string_free (folded, FALSE));
+}
+
+CeldLayerRole
+celd_layer_role_of_name (const char *name)
+{
+  char         *folded = fold (name);
+  CeldLayerRole found = CELD_N_LAYERS;
+
+  for (int role = 0; role < CELD_N_LAYERS; role++)
+    for (gsize i = 0; i < G_N_ELEMENTS (names[role]) && names[role][i]; i++)
+      if (!strcmp (folded, names[role][i]))
+        found = (CeldLayerRole) role;
+  g_free (folded);
+  return found;
+}
+
+const char *
+celd_layer_role_name (CeldLayerRole role)
+{
+  return titles[role];
+}

@@ -1,0 +1,286 @@
+# Runs the plug-in on layered images without a screen, and checks what it does.  For the Python interpreter of GIMP 3.
+#
+# $CELDEPTH_EXAMPLES: where the drawings are; $CELDEPTH_OUT: has what the command made (reference); gets plugin.txt, a
+# line for each check, and plugin-people.xcf and plugin-large.xcf, the layers of an example for the tests with a screen.
+#
+# SPDX-License-Identifier: LGPL-3.0-or-later
+import os
+
+import gi
+gi.require_version('Gegl', '0.4')
+gi.require_version('Gimp', '3.0')
+from gi.repository import Gegl, Gimp, Gio  # noqa: E402
+import numpy as np  # noqa: E402
+from PIL import Image  # noqa: E402
+
+EXAMPLES, OUT = os.environ['CELDEPTH_EXAMPLES'], os.environ['CELDEPTH_OUT']
+QUIET = Gimp.RunMode.NONINTERACTIVE
+PRECISIONS = {8: Gimp.Precision.U8_NON_LINEAR, 16: Gimp.Precision.U16_NON_LINEAR, 32: Gimp.Precision.FLOAT_LINEAR}
+ERRORS = {8: 1 / 255, 16: 1 / 65535, 32: 1 / 65535}
+PICTURES = ['enhanced', 'lit', 'shading', 'normals', 'depth', 'levels', 'regions']
+log = open(os.path.join(OUT, 'plugin.txt'), 'w')
+
+
+def check(fact, text):
+    print('ok  ' if fact else 'FAIL', text, file=log, flush=True)
+
+
+def file(*path):
+    return Gio.File.new_for_path(os.path.join(*path))
+
+
+# ------------------------------------------------------------------ images
+
+def crop(layer):
+    """Makes a layer as small as what is painted on it, which moves its corner."""
+    width, height = layer.get_width(), layer.get_height()
+    data = layer.get_buffer().get(Gegl.Rectangle.new(0, 0, width, height), 1.0, "A u8", Gegl.AbyssPolicy.NONE)
+    y, x = np.nonzero(np.frombuffer(data, np.uint8).reshape(height, width))
+    layer.resize(int(np.ptp(x)) + 1, int(np.ptp(y)) + 1, -int(x.min()), -int(y.min()))
+
+
+def open_people(bits, names=('Drawing', 'Scribbles', 'Arrows'), small=False):
+    """The layers of an example, as an artist may have them: in a group, cropped, with a selection."""
+    image = Gimp.file_load(QUIET, file(EXAMPLES, 'people', 'drawing.png'))
+    if image.get_base_type() != Gimp.ImageBaseType.RGB:
+        image.convert_rgb()
+    if image.get_precision() != PRECISIONS[bits]:
+        image.convert_precision(PRECISIONS[bits])
+    image.get_layers()[0].set_name(names[0])
+    group = Gimp.GroupLayer.new(image, 'notes')
+    image.insert_layer(group, None, 0)
+    for name, file_name in zip(names[1:], ('scribbles.png', 'arrows.png')):
+        layer = Gimp.file_load_layer(QUIET, image, file(EXAMPLES, 'people', file_name))
+        layer.set_name(name)
+        image.insert_layer(layer, group, 0)
+        if small:
+            crop(layer)
+    image.set_selected_layers([by_name(image, names[1])])
+    return image
+
+
+def all_layers(layers):
+    for layer in layers:
+        yield layer
+        if layer.is_group():
+            yield from all_layers(layer.get_children())
+
+
+def by_name(image, name):
+    return next(layer for layer in all_layers(image.get_layers()) if layer.get_name() == name)
+
+
+def pixels(layer, pixel_format, kind, channels):
+    width, height = layer.get_width(), layer.get_height()
+    data = layer.get_buffer().get(Gegl.Rectangle.new(0, 0, width, height), 1.0, pixel_format, Gegl.AbyssPolicy.NONE)
+    return np.frombuffer(data, kind).reshape(height, width, channels).astype(float)
+
+
+# ------------------------------------------------------------------ procedures
+
+def run(name, image, run_mode=QUIET, **arguments):
+    """The status, the second result or None, and the message of an error."""
+    procedure = Gimp.get_pdb().lookup_procedure(name)
+    config = procedure.create_config()
+    config.set_property('run-mode', run_mode)
+    config.set_property('image', image)
+    for argument, value in arguments.items():
+        config.set_property(argument.replace('_', '-'), value)
+    result = procedure.run(config)
+    values = [result.index(i) for i in range(result.length())]
+    good = values[0] == Gimp.PDBStatusType.SUCCESS
+    return good, values[1] if good and len(values) > 1 else None, '' if good else Gimp.get_pdb().get_last_error()
+
+
+def pop_up(image, wanted=tuple(PICTURES), **arguments):
+    return run('plug-in-celdepth-popup', image, **{name: name in wanted for name in PICTURES}, **arguments)
+
+
+def results(group):
+    """The layers of the group by the names of their pictures."""
+    return {bytes(layer.get_parasite('celdepth-picture').get_data()).rstrip(b'\0').decode(): layer
+            for layer in group.get_children()}
+
+
+# ------------------------------------------------------------------ comparing
+
+def encode(linear):
+    v = np.clip(linear, 0, 1)
+    return np.where(v <= 0.0031308, 12.92 * v, 1.055 * v ** (1 / 2.4) - 0.055)
+
+
+def reference(name, bits):
+    """What the command made, as the numbers that an image of these bits has: encoded, or linear with 32 bits."""
+    if name == 'regions':
+        encoded = np.array(Image.open(os.path.join(OUT, 'labels.png')).convert('RGB')) / 255
+        return encoded if bits < 32 else np.where(encoded <= 0.04045, encoded / 12.92,
+                                                  ((encoded + 0.055) / 1.055) ** 2.4)
+    if name == 'normals':  # numbers, not colours
+        return 0.5 + 0.5 * np.load(os.path.join(OUT, 'popup-normals.npy'))
+    file_name = {'shading': 'popup-shading'}.get(name, name)
+    values = np.atleast_3d(np.squeeze(np.load(os.path.join(OUT, file_name + '.npy')))).astype(float)
+    values = np.repeat(values, 3, 2) if values.shape[2] == 1 else values[..., :3]
+    return values if bits == 32 else encode(values)
+
+
+def compare(group, bits, what):
+    for name, layer in results(group).items():
+        found = pixels(layer, 'RGB float' if bits == 32 else "R'G'B' float", np.float32, 3)
+        wanted = reference(name, bits)
+        same_size = found.shape == wanted.shape
+        difference = np.abs(found - wanted).max() if same_size else 1
+        check(difference <= ERRORS[bits] + 1e-6, f'{what}, {bits} bits: {name} differs by {difference:.2e}')
+
+
+# ------------------------------------------------------------------ the checks
+
+def results_are_those_of_the_command():
+    names = {8: ('Drawing', 'Scribbles', 'Arrows'), 16: ('zeichnung', 'KRITZELEIEN', 'Pfeile'),
+             32: ('Kresba', 'Čmáranice', 'ŠIPKY')}
+    for bits in PRECISIONS:
+        image = open_people(bits, names[bits], small=bits != 8)
+        if bits == 32:
+            Gimp.file_save(QUIET, image, file(OUT, 'plugin-32.xcf'), None)
+            image.delete()
+            image = Gimp.file_load(QUIET, file(OUT, 'plugin-32.xcf'))
+        image.select_rectangle(Gimp.ChannelOps.REPLACE, 100, 50, 80, 90)
+        good, group, message = pop_up(image)
+        check(good, f'{bits} bits: Pop-up runs {message}')
+        if not good:
+            continue
+        compare(group, bits, ', '.join(names[bits]))
+        check([layer.get_visible() for layer in group.get_children()] == [True] + 6 * [False],
+              f'{bits} bits: the top result is visible, the others are there')
+        check(list(results(group)) == PICTURES, f'{bits} bits: the results are in their order')
+        bounds = Gimp.Selection.bounds(image)
+        check((bounds.x1, bounds.y1, bounds.x2, bounds.y2) == (100, 50, 180, 140), f'{bits} bits: the selection stays')
+        check([layer.get_name() for layer in image.get_selected_layers()] == [names[bits][1]],
+              f'{bits} bits: the layer that the artist paints on stays selected')
+        image.delete()
+
+
+def a_second_run_updates_in_place():
+    image = open_people(8)
+    by_name(image, 'Arrows').set_visible(False)
+    image.select_rectangle(Gimp.ChannelOps.REPLACE, 100, 50, 80, 90)
+    arrows = by_name(image, 'Arrows')
+    offsets = arrows.get_offsets()
+    arrows.set_offsets(offsets.offset_x + image.get_width(), offsets.offset_y)
+    good, _, message = pop_up(image)
+    check(not good and 'arrows lies outside the image' in message, f'a layer outside the image is refused: {message}')
+    arrows.set_offsets(offsets.offset_x, offsets.offset_y)
+    _, group, _ = pop_up(image, ['depth', 'levels', 'normals'], relations='10,10 > 20,20')
+    first = results(group)
+    before = pixels(first['depth'], 'RGB float', np.float32, 3)
+    first['depth'].set_name('my depth')
+    first['depth'].set_opacity(40)
+    first['depth'].resize(100, 100, -20, -30)
+    first['depth'].set_lock_alpha(True)
+    first['normals'].fill(Gimp.FillType.WHITE)
+    first['normals'].set_lock_content(True)
+    kept = pixels(first['normals'], 'RGB float', np.float32, 3)
+    outer = Gimp.GroupLayer.new(image, 'outer')
+    image.insert_layer(outer, None, 0)
+    image.reorder_item(group, outer, 0)
+    own = Gimp.Layer.new(image, 'my own', 20, 20, Gimp.ImageType.RGBA_IMAGE, 100, Gimp.LayerMode.NORMAL)
+    image.insert_layer(own, group, 1)
+    own.fill(Gimp.FillType.WHITE)
+    n = len(list(all_layers(image.get_layers())))
+    _, again, _ = pop_up(image, ['depth', 'levels', 'lit', 'normals', 'regions'])
+    ids = {layer.get_id() for layer in again.get_children()}
+    check(again.get_id() == group.get_id() and again.get_parent().get_id() == outer.get_id(),
+          'a second run finds the group where the artist has moved it')
+    check({layer.get_id() for layer in first.values()} <= ids and own.get_id() in ids,
+          'a second run keeps the layers of the group, and the artist\'s own in it')
+    check(len(list(all_layers(image.get_layers()))) == n + 2, 'new pictures are added to it')
+    depth = first['depth']
+    check(depth.get_name() == 'my depth' and round(depth.get_opacity()) == 40 and depth.get_lock_alpha(),
+          'name, opacity and lock of a layer stay')
+    check(depth.get_width() == image.get_width() and np.array_equal(depth.get_offsets()[1:], [0, 0]) and
+          np.abs(pixels(depth, "R'G'B' float", np.float32, 3) - reference('depth', 8)).max() <= ERRORS[8] + 1e-6,
+          'a layer gets the new pixels, also beyond the selection and where it was cropped')
+    check(np.array_equal(kept, pixels(first['normals'], 'RGB float', np.float32, 3)), 'a locked layer stays as it is')
+    check(not np.array_equal(before, reference('depth', 32)), 'relations count')
+    _, again, _ = pop_up(image, ['depth'])
+    left = [layer.get_name() for layer in again.get_children()]
+    check(sorted(left) == sorted(['my depth', 'Normal map', 'my own']), f'pictures that are not wanted go: {left}')
+    image.delete()
+
+
+def input_without_sense_is_refused():
+    def refused(image, words, **arguments):
+        n = len(list(all_layers(image.get_layers())))
+        good, _, message = pop_up(image, **arguments)
+        check(not good and words in message and len(list(all_layers(image.get_layers()))) == n, f'refused: {message}')
+        image.delete()
+
+    image = open_people(8)
+    image.convert_grayscale()
+    refused(image, 'Image > Mode > RGB')
+    image = open_people(8)
+    for name in ('Scribbles', 'Arrows'):
+        image.remove_layer(by_name(image, name))
+    refused(image, 'Set up layers')
+    refused(open_people(8, ('one', 'Scribbles', 'two')), 'no layer named "Drawing"')
+    image = open_people(8)
+    by_name(image, 'Drawing').fill(Gimp.FillType.WHITE)
+    refused(image, 'has no lines')
+    refused(open_people(8), 'Tick at least one', wanted=())
+    refused(open_people(8), 'line 1, column 3', relations='5 > 7')
+    other = open_people(8)
+    refused(open_people(8), 'belongs to another image', scribbles=by_name(other, 'Scribbles'))
+    image = other
+    refused(image, 'chosen as', scribbles=by_name(image, 'Drawing'))
+
+
+def layers_can_be_named_by_a_script():
+    image = open_people(32, ('one', 'two', 'three'))
+    good, group, message = pop_up(image, ['depth'], drawing=by_name(image, 'one'), scribbles=by_name(image, 'two'),
+                                  arrows=by_name(image, 'three'))
+    check(good, f'layers of any name can be given {message}')
+    compare(group, 32, 'layers given')
+    Gimp.file_save(QUIET, image, file(OUT, 'plugin-kept.xcf'), None)
+    image.delete()
+    image = Gimp.file_load(QUIET, file(OUT, 'plugin-kept.xcf'))
+    kept = bytes(image.get_parasite('celdepth-popup').get_data()).decode()
+    two = by_name(image, 'two')
+    check(f'scribbles={two.get_tattoo()}\n' in kept and 'depth=true\n' in kept and 'lit=false\n' in kept,
+          'settings and layers are kept in the file')
+    good, again, message = run('plug-in-celdepth-popup', image, Gimp.RunMode.WITH_LAST_VALS)
+    check(good and list(results(again)) == ['depth'], f'and used again, without names {message}')
+    image.delete()
+
+
+def set_up_layers_makes_what_is_missing():
+    image = Gimp.file_load(QUIET, file(EXAMPLES, 'people', 'drawing.png'))
+    if image.get_base_type() == Gimp.ImageBaseType.RGB:
+        image.convert_grayscale()
+    good, _, message = run('plug-in-celdepth-set-up-layers', image)
+    names = [layer.get_name() for layer in image.get_layers()]
+    check(good and names == ['Arrows', 'Contours', 'Scribbles', 'Drawing'], f'layers are made: {names} {message}')
+    check(image.get_base_type() == Gimp.ImageBaseType.RGB, 'a grey image gets colours')
+    drawing = by_name(image, 'Drawing')
+    check(drawing.get_lock_content() and drawing.get_lock_position(), 'the drawing is locked')
+    check([layer.get_name() for layer in image.get_selected_layers()] == ['Scribbles'], 'Scribbles is selected')
+    check(all(layer.get_width() == image.get_width() and layer.has_alpha() for layer in image.get_layers()[:3]),
+          'the layers are transparent and have the size of the image')
+    palette = Gimp.Palette.get_by_name('Cartoon Depth')
+    colours = {tuple(c.get_rgba()) for c in palette.get_colors()}
+    check(len(colours) == 24, 'there is a palette of 24 colours')
+    check(Gimp.context_get_foreground().get_rgba()[:3] == (1, 0, 0), 'the first of them is the foreground')
+    run('plug-in-celdepth-set-up-layers', image)
+    check(len(image.get_layers()) == 4 and len(Gimp.Palette.get_by_name('Cartoon Depth').get_colors()) == 24,
+          'a second time nothing is missing')
+    image.delete()
+
+
+Gegl.init(None)
+results_are_those_of_the_command()
+a_second_run_updates_in_place()
+input_without_sense_is_refused()
+layers_can_be_named_by_a_script()
+set_up_layers_makes_what_is_missing()
+image = open_people(8, small=True)
+Gimp.file_save(QUIET, image, file(OUT, 'plugin-people.xcf'), None)
+image.scale(4 * image.get_width(), 4 * image.get_height())
+Gimp.file_save(QUIET, image, file(OUT, 'plugin-large.xcf'), None)
