@@ -1,23 +1,12 @@
-/* The route of a session, from buffers to buffers.
+/* The route of a session: reads the layers, and makes pictures.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
-#include "pipeline.h"
+#include "pipeline-parts.h"
 
 #include <string.h>
 
 #include "buffers.h"
-#include "problems.h"
-
-struct CeldPipeline
-{
-  CeldSession     *session;
-  CeldSettings     settings;
-  int              width, height;
-  CeldColours      art;               /* the drawing in linear light */
-  CeldColours      lit, enhanced;     /* data NULL: not made */
-  const CeldOrder *order;             /* of the session; NULL: not made */
-};
 
 static const char *const layer_names[CELD_N_LAYERS] = {
   [CELD_LAYER_DRAWING]  = "drawing",  [CELD_LAYER_SCRIBBLES]   = "scribbles",   [CELD_LAYER_ARROWS] = "arrows",
@@ -40,8 +29,8 @@ fail (GError **error, const char *format, ...)
   return FALSE;
 }
 
-static gboolean
-try (CeldStatus status, GError **error)
+gboolean
+celd_pipeline_try (CeldStatus status, GError **error)
 {
   if (status != CELD_OK)
     g_set_error_literal (error, CELD_PIPELINE_ERROR,
@@ -50,29 +39,28 @@ try (CeldStatus status, GError **error)
   return status == CELD_OK;
 }
 
-/* Memory for so many components a pixel, `size` bytes each; NULL if there is none. */
-static gpointer
-new_picture (const CeldPipeline *p, gsize components, gsize size)
+gpointer
+celd_pipeline_new_picture (const CeldPipeline *p, gsize components, gsize size)
 {
   return g_try_malloc_n ((gsize) p->width * (gsize) p->height, components * size);
 }
 
-static CeldPlane
-new_plane (const CeldPipeline *p)
+CeldPlane
+celd_pipeline_new_plane (const CeldPipeline *p)
 {
-  return (CeldPlane) { p->width, p->height, (size_t) p->width, new_picture (p, 1, sizeof (float)) };
+  return (CeldPlane) { p->width, p->height, (size_t) p->width, celd_pipeline_new_picture (p, 1, sizeof (float)) };
 }
 
-static CeldPaint
-new_paint (const CeldPipeline *p)
+CeldPaint
+celd_pipeline_new_paint (const CeldPipeline *p)
 {
-  return (CeldPaint) { p->width, p->height, (size_t) p->width, new_picture (p, 4, 1) };
+  return (CeldPaint) { p->width, p->height, (size_t) p->width, celd_pipeline_new_picture (p, 4, 1) };
 }
 
-static CeldColours
-new_colours (const CeldPipeline *p)
+CeldColours
+celd_pipeline_new_colours (const CeldPipeline *p)
 {
-  return (CeldColours) { p->width, p->height, (size_t) p->width, new_picture (p, 4, sizeof (float)) };
+  return (CeldColours) { p->width, p->height, (size_t) p->width, celd_pipeline_new_picture (p, 4, sizeof (float)) };
 }
 
 /* ------------------------------------------------------------------ input */
@@ -113,12 +101,12 @@ set_drawing (CeldPipeline *p, const CeldPipelineLayer *layer)
   GeglRectangle rect = image_rectangle (p, layer);
   gboolean      alpha = celd_buffer_has_alpha (layer->buffer);
   CeldHost      host = { NULL, celd_gegl_each, NULL };
-  CeldDrawing   drawing = { .luma = new_plane (p) };
+  CeldDrawing   drawing = { .luma = celd_pipeline_new_plane (p) };
   CeldStatus    status = CELD_NO_MEMORY;
 
   if (alpha)
-    drawing.alpha = new_plane (p);
-  p->art = new_colours (p);
+    drawing.alpha = celd_pipeline_new_plane (p);
+  p->art = celd_pipeline_new_colours (p);
   if (drawing.luma.data && (!alpha || drawing.alpha.data) && p->art.data)
     status = celd_buffer_read_drawing (layer->buffer, &rect, p->settings.ink, &host, &drawing);
   if (status == CELD_OK)
@@ -136,7 +124,7 @@ set_layer (CeldPipeline *p, const CeldPipelineLayer *layer,
            CeldStatus (*set) (CeldSession *session, const CeldPaint *paint))
 {
   GeglRectangle rect = image_rectangle (p, layer);
-  CeldPaint     paint = new_paint (p);
+  CeldPaint     paint = celd_pipeline_new_paint (p);
   CeldStatus    status = CELD_NO_MEMORY;
 
   if (paint.data)
@@ -174,7 +162,7 @@ set_relations (CeldPipeline *p, const char *relations, GError **error)
   CeldStatus    status = celd_session_set_relations (p->session, relations, &place);
 
   if (status != CELD_BAD_RELATION)
-    return try (status, error);
+    return celd_pipeline_try (status, error);
   return fail (error, "The relations cannot be read: line %d, column %d has %s where %s was expected. An example of a "
                "relation is: 120,80 > 300,95", place.line, place.column, place.found, place.expected);
 }
@@ -187,7 +175,7 @@ check_lines (CeldPipeline *p, GError **error)
 
   if (p->settings.flats)
     return TRUE;
-  return try (celd_session_ink (p->session, &host, &ink, NULL), error) &&
+  return celd_pipeline_try (celd_session_ink (p->session, &host, &ink, NULL), error) &&
          (celd_ink_has_lines (&ink) ||
           fail (error, "The layer with the drawing has no lines: it is blank, or its lines are too faint. Choose "
                 "another layer, or another setting of 'Ink'."));
@@ -209,9 +197,9 @@ celd_pipeline_new (const CeldPipelineInput *input, GError **error)
   p->settings.encoding   = usual.encoding;
   p->settings.near_level = usual.near_level;
   p->settings.far_level  = usual.far_level;
-  if (try (p->session ? CELD_OK : CELD_NO_MEMORY, error) &&
-      try (celd_session_set_settings (p->session, &p->settings), error) &&
-      try (set_layers (p, input), error) &&
+  if (celd_pipeline_try (p->session ? CELD_OK : CELD_NO_MEMORY, error) &&
+      celd_pipeline_try (celd_session_set_settings (p->session, &p->settings), error) &&
+      celd_pipeline_try (set_layers (p, input), error) &&
       set_relations (p, input->relations, error) &&
       check_lines (p, error))
     return p;
@@ -224,6 +212,7 @@ celd_pipeline_free (CeldPipeline *p)
 {
   if (!p)
     return;
+  celd_layers_free (p->layers);
   celd_session_free (p->session);
   g_free (p->art.data);
   g_free (p->lit.data);
@@ -287,12 +276,11 @@ make_shading (CeldPipeline *p, const CeldHost *host)
   return celd_session_shading (p->session, host, &shading, NULL);
 }
 
-/* A copy of the art. */
-static CeldStatus
-copy_art (const CeldPipeline *p, CeldColours *copy)
+CeldStatus
+celd_pipeline_copy_art (const CeldPipeline *p, CeldColours *copy)
 {
   g_free (copy->data);
-  *copy = new_colours (p);
+  *copy = celd_pipeline_new_colours (p);
   if (!copy->data)
     return CELD_NO_MEMORY;
   memcpy (copy->data, p->art.data, 4 * sizeof (float) * (gsize) p->width * (gsize) p->height);
@@ -302,10 +290,10 @@ copy_art (const CeldPipeline *p, CeldColours *copy)
 static CeldStatus
 make_lit (CeldPipeline *p, const CeldHost *host)
 {
-  CeldPlane   ink, levels, gloss = new_plane (p);
-  CeldColours tone = new_colours (p);
+  CeldPlane   ink, levels, gloss = celd_pipeline_new_plane (p);
+  CeldColours tone = celd_pipeline_new_colours (p);
   CeldVectors normals;
-  CeldStatus  status = tone.data && gloss.data ? copy_art (p, &p->lit) : CELD_NO_MEMORY;
+  CeldStatus  status = tone.data && gloss.data ? celd_pipeline_copy_art (p, &p->lit) : CELD_NO_MEMORY;
 
   if (status == CELD_OK)
     status = celd_session_ink (p->session, NULL, &ink, NULL);
@@ -325,8 +313,8 @@ make_lit (CeldPipeline *p, const CeldHost *host)
 static CeldStatus
 make_enhanced (CeldPipeline *p, const CeldHost *host)
 {
-  CeldPlane  levels, change = new_plane (p);
-  CeldStatus status = change.data ? copy_art (p, &p->enhanced) : CELD_NO_MEMORY;
+  CeldPlane  levels, change = celd_pipeline_new_plane (p);
+  CeldStatus status = change.data ? celd_pipeline_copy_art (p, &p->enhanced) : CELD_NO_MEMORY;
 
   if (status == CELD_OK)
     status = celd_session_levels (p->session, NULL, &levels, NULL);
@@ -338,11 +326,10 @@ make_enhanced (CeldPipeline *p, const CeldHost *host)
   return status;
 }
 
-#define OF(picture) (1u << CELD_PICTURE_##picture)
 #define NEED_LIGHT (OF (NORMALS) | OF (SHADING) | OF (LIT))
 #define NEED_LEVELS (OF (LEVELS) | OF (DEPTH) | OF (ENHANCED) | NEED_LIGHT)
 
-/* The steps in their order, the pictures that need each, and its part of the time (measured, in percent of all). */
+/* The steps in their order, the pictures that need each, and its part of the time, in percent of all; chosen. */
 static const struct
 {
   const char *name;
@@ -361,13 +348,10 @@ static const struct
   { "Casting shadows",       OF (ENHANCED),     3, make_enhanced },
 };
 
-/* Progress of one step as that of all. */
-typedef struct { CeldPipelineProgress progress; gpointer data; const char *name; double from, part; } Report;
-
-static bool
-report (void *data, double done)
+bool
+celd_pipeline_report (void *data, double done)
 {
-  const Report *r = data;
+  const CeldPipelineReport *r = data;
 
   return !r->progress || r->progress (r->data, MIN (r->from + r->part * done, 1), r->name);
 }
@@ -375,10 +359,10 @@ report (void *data, double done)
 gboolean
 celd_pipeline_make (CeldPipeline *p, guint wanted, CeldPipelineProgress progress, gpointer data, GError **error)
 {
-  Report     r = { .progress = progress, .data = data };
-  CeldHost   host = { report, celd_gegl_each, &r };
-  double     all = 0;
-  CeldStatus status = CELD_OK;
+  CeldPipelineReport r = { .progress = progress, .data = data };
+  CeldHost           host = { celd_pipeline_report, celd_gegl_each, &r };
+  double             all = 0;
+  CeldStatus         status = CELD_OK;
 
   for (gsize i = 0; i < G_N_ELEMENTS (steps); i++)
     if (wanted & steps[i].pictures)
@@ -388,118 +372,8 @@ celd_pipeline_make (CeldPipeline *p, guint wanted, CeldPipelineProgress progress
       {
         r.name = steps[i].name;
         r.part = steps[i].time / all;
-        status = report (&r, 0) ? steps[i].make (p, &host) : CELD_CANCELLED;
+        status = celd_pipeline_report (&r, 0) ? steps[i].make (p, &host) : CELD_CANCELLED;
         r.from += r.part;
       }
-  return try (status, error);
-}
-
-/* ------------------------------------------------------------------ writing pictures */
-
-static void
-put (const CeldPipeline *p, GeglBuffer *buffer, const Babl *format, const void *pixels, gsize pixel_size)
-{
-  gegl_buffer_set (buffer, GEGL_RECTANGLE (0, 0, p->width, p->height), 0, format, pixels, p->width * (int) pixel_size);
-}
-
-static CeldStatus
-write_plane (CeldPipeline *p, CeldStatus (*ask) (CeldSession *, const CeldHost *, CeldPlane *, CeldRect *),
-             GeglBuffer *buffer)
-{
-  CeldPlane  plane;
-  CeldStatus status = ask (p->session, NULL, &plane, NULL);
-
-  if (status == CELD_OK)
-    put (p, buffer, babl_format ("Y float"), plane.data, sizeof (float));
-  return status;
-}
-
-static CeldStatus
-write_paint (CeldPipeline *p, CeldStatus (*paint_on) (CeldPipeline *p, CeldPaint *paint), GeglBuffer *buffer)
-{
-  CeldPaint  paint = new_paint (p);
-  CeldStatus status = paint.data ? paint_on (p, &paint) : CELD_NO_MEMORY;
-
-  if (status == CELD_OK)
-    put (p, buffer, babl_format ("R'G'B'A u8"), paint.data, 4);
-  g_free (paint.data);
-  return status;
-}
-
-static CeldStatus
-paint_regions (CeldPipeline *p, CeldPaint *paint)
-{
-  CeldLabels labels;
-  CeldStatus status = celd_session_labels (p->session, NULL, &labels, NULL);
-
-  return status == CELD_OK ? celd_labels_paint (&labels, celd_session_palette (p->session), paint) : status;
-}
-
-static CeldStatus
-paint_suggestions (CeldPipeline *p, CeldPaint *paint)
-{
-  return celd_session_paint_suggestions (p->session, NULL, paint);
-}
-
-/* In the space of the buffer, so that its pixels are these numbers. */
-static CeldStatus
-write_normals (CeldPipeline *p, GeglBuffer *buffer)
-{
-  const Babl *format = gegl_buffer_get_format (buffer);
-  gboolean    linear = babl_get_model_flags (babl_format_get_model (format)) & BABL_MODEL_FLAG_LINEAR;
-  float      *stored = new_picture (p, 3, sizeof (float));
-  CeldVectors normals;
-  CeldStatus  status = stored ? celd_session_normals (p->session, NULL, &normals, NULL) : CELD_NO_MEMORY;
-
-  if (status == CELD_OK)
-    {
-      celd_normals_store (&normals, FALSE, stored);
-      put (p, buffer, babl_format_with_space (linear ? "RGB float" : "R'G'B' float", format), stored,
-           3 * sizeof (float));
-    }
-  g_free (stored);
-  return status;
-}
-
-static CeldStatus
-write_art (CeldPipeline *p, const CeldColours *art, GeglBuffer *buffer)
-{
-  if (!art->data)
-    return CELD_BAD_VALUE;
-  put (p, buffer, babl_format ("RGBA float"), art->data, 4 * sizeof (float));
-  return CELD_OK;
-}
-
-static CeldStatus
-write_picture (CeldPipeline *p, CeldPicture picture, GeglBuffer *buffer)
-{
-  switch (picture)
-    {
-    case CELD_PICTURE_REGIONS:     return write_paint (p, paint_regions, buffer);
-    case CELD_PICTURE_LEVELS:      return write_plane (p, celd_session_levels, buffer);
-    case CELD_PICTURE_DEPTH:       return write_plane (p, celd_session_depth, buffer);
-    case CELD_PICTURE_NORMALS:     return write_normals (p, buffer);
-    case CELD_PICTURE_SHADING:     return write_plane (p, celd_session_shading, buffer);
-    case CELD_PICTURE_LIT:         return write_art (p, &p->lit, buffer);
-    case CELD_PICTURE_ENHANCED:    return write_art (p, &p->enhanced, buffer);
-    case CELD_PICTURE_SUGGESTIONS: return write_paint (p, paint_suggestions, buffer);
-    case CELD_N_PICTURES:          break;
-    }
-  return CELD_BAD_VALUE;
-}
-
-gboolean
-celd_pipeline_write (CeldPipeline *p, CeldPicture picture, GeglBuffer *buffer, GError **error)
-{
-  return try (write_picture (p, picture, buffer), error);
-}
-
-char *
-celd_pipeline_problems (CeldPipeline *p)
-{
-  GString *message = g_string_new (NULL);
-
-  celd_problems_append (message, celd_session_problems (p->session), celd_session_palette (p->session),
-                        celd_session_relations (p->session), p->order);
-  return g_string_free (message, message->len == 0);
+  return celd_pipeline_try (status, error);
 }

@@ -66,6 +66,16 @@ gboolean celd_pipeline_make (CeldPipeline *pipeline, guint wanted, CeldPipelineP
 /* Writes a picture that was made into a buffer, from its pixel 0,0 on, in whatever format that has. */
 gboolean celd_pipeline_write (CeldPipeline *pipeline, CeldPicture picture, GeglBuffer *buffer, GError **error);
 
+/* Cuts the drawing into a layer for each region, from the back to the front, composited in linear light.  With
+ * settings.complete layers have what nearer ones hide.  `bits` of 8 or less round colours so that 8 bits are exact. */
+gboolean celd_pipeline_cut (CeldPipeline *pipeline, int bits, CeldPipelineProgress progress, gpointer data,
+                            GError **error);
+/* The layers that were cut; those of regions that have no pixel have no width.  The name is to be freed. */
+gsize         celd_pipeline_n_layers    (const CeldPipeline *pipeline);
+GeglRectangle celd_pipeline_layer_box   (const CeldPipeline *pipeline, gsize layer);
+char         *celd_pipeline_layer_name  (const CeldPipeline *pipeline, gsize layer);
+gboolean      celd_pipeline_write_layer (CeldPipeline *pipeline, gsize layer, GeglBuffer *buffer, GError **error);
+
 /* What the artist should know of the pictures that were made, a line for each problem; NULL: nothing.  Free it. */
 char *celd_pipeline_problems (CeldPipeline *pipeline);
 

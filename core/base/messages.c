@@ -6,6 +6,7 @@
 
 #include <ctype.h>
 #include <stdio.h>
+#include <string.h>
 
 const char *
 celd_status_text (CeldStatus status)
@@ -22,6 +23,22 @@ celd_status_text (CeldStatus status)
                                        "arrow from a nearer to a farther part.";
     }
   return "Unknown status.";
+}
+
+void
+celd_label_name (const CeldPalette *palette, uint32_t label, char *name, size_t size)
+{
+  const uint8_t *c = palette->item[label - 1].colour;
+  size_t         alike = 0;
+
+  for (size_t i = 0; i < palette->n; i++)
+    alike += !memcmp (palette->item[i].colour, c, sizeof palette->item[i].colour);
+  if (!c[3])
+    snprintf (name, size, "background");
+  else if (alike > 1)
+    snprintf (name, size, "#%02x%02x%02x label %u", c[0], c[1], c[2], (unsigned) label);
+  else
+    snprintf (name, size, "#%02x%02x%02x", c[0], c[1], c[2]);
 }
 
 /* " #rrggbb" of a label, " the background", or nothing if it is not known, or if nobody painted its colour. */

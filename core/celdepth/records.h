@@ -31,6 +31,10 @@ typedef struct { CeldRegion *item; size_t n; } CeldPalette;
 
 CELD_API void celd_palette_clear (CeldPalette *palette);
 
+/* Writes the name of a label's layer, cut to `size` bytes with the final 0: "#rrggbb", with " label N" if other labels
+ * have the same colour, or "background" for the transparent one. */
+CELD_API void celd_label_name (const CeldPalette *palette, uint32_t label, char *name, size_t size);
+
 /* One end of a relation: a point of the drawing, or every region of a colour.  In a composition the drawing is one of
  * its fragments, of which `whole` means every region but the page. */
 typedef struct { bool by_colour; uint8_t colour[3]; double x, y; size_t fragment; bool whole; } CeldTerm;

@@ -8,24 +8,13 @@
 
 /* ------------------------------------------------------------------ names */
 
-static bool
-same_colour (const CeldPalette *palette, size_t a, size_t b)
-{
-  return !memcmp (palette->item[a].colour, palette->item[b].colour, sizeof palette->item[a].colour);
-}
-
 char *
 cli_layer_name (const CeldPalette *palette, uint32_t label)
 {
-  const uint8_t *c = palette->item[label - 1].colour;
-  size_t         alike = 0;
+  char name[40];
 
-  if (!c[3])
-    return g_strdup ("background");
-  for (size_t i = 0; i < palette->n; i++)
-    alike += same_colour (palette, i, label - 1);
-  return alike > 1 ? g_strdup_printf ("#%02x%02x%02x label %u", c[0], c[1], c[2], label)
-                   : g_strdup_printf ("#%02x%02x%02x", c[0], c[1], c[2]);
+  celd_label_name (palette, label, name, sizeof name);
+  return g_strdup (name);
 }
 
 /* ------------------------------------------------------------------ writing */

@@ -1,4 +1,4 @@
-/* The dialog of Pop-up: which layers, what to make of them, then how; what is rarely needed is folded.
+/* The dialog of the procedures: which layers, what to make of them, then how; what is rarely needed is folded.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -106,15 +106,6 @@ layers_frame (GimpImage *image, GimpProcedureConfig *config)
 /* ------------------------------------------------------------------ pictures */
 
 /* Eight bits are few for depth. */
-static gboolean
-has_few_bits (GimpImage *image)
-{
-  GimpPrecision precision = gimp_image_get_precision (image);
-
-  return precision == GIMP_PRECISION_U8_LINEAR || precision == GIMP_PRECISION_U8_NON_LINEAR ||
-         precision == GIMP_PRECISION_U8_PERCEPTUAL;
-}
-
 static void
 fill_pictures (GimpProcedureDialog *dialog, GimpImage *image)
 {
@@ -127,8 +118,9 @@ fill_pictures (GimpProcedureDialog *dialog, GimpImage *image)
   gtk_flow_box_set_homogeneous (GTK_FLOW_BOX (flow), TRUE);
   gimp_procedure_dialog_get_label (dialog, "pictures-title", "Make", FALSE, FALSE);
   gimp_procedure_dialog_get_label (dialog, "few-bits", "<small>The image has 8 bits, so that depth has at most 256 "
-                                   "steps.\nFor more: Image &gt; Precision, 32-bit floating point.</small>", TRUE, FALSE);
-  if (has_few_bits (image))
+                                   "steps.\nFor more: Image &gt; Precision, 32-bit floating point.</small>", TRUE,
+                                   FALSE);
+  if (celd_image_has_few_bits (image))
     gimp_procedure_dialog_fill_box (dialog, "pictures", "pictures-flow", "few-bits", NULL);
   else
     gimp_procedure_dialog_fill_box (dialog, "pictures", "pictures-flow", NULL);
@@ -160,8 +152,8 @@ use_sliders (GimpProcedureDialog *dialog, const char *const *names)
 static void
 fill_light (GimpProcedureDialog *dialog)
 {
-  static const char *const sliders[] = { "light-azimuth", "light-elevation", "ambient", "specular", "rim-light", "bulge",
-                                         "bevel", NULL };
+  static const char *const sliders[] = { "light-azimuth", "light-elevation", "ambient", "specular", "rim-light",
+                                         "bulge", "bevel", NULL };
 
   use_sliders (dialog, sliders);
   gimp_procedure_dialog_get_label (dialog, "light-title", "Light", FALSE, FALSE);
@@ -185,15 +177,21 @@ fill_shadows (GimpProcedureDialog *dialog)
   gimp_procedure_dialog_fill_frame (dialog, "shadows", "shadows-title", FALSE, "shadows-box");
 }
 
+/* Suggest order needs no order. */
 static void
-fill_reading (GimpProcedureDialog *dialog)
+fill_reading (GimpProcedureDialog *dialog, GimpProcedureConfig *config)
 {
   static const char *const sliders[] = { "ink-threshold", "hardness", NULL };
 
   use_sliders (dialog, sliders);
   gimp_procedure_dialog_get_label (dialog, "reading-title", "_How layers are read", FALSE, TRUE);
-  gimp_procedure_dialog_fill_box (dialog, "reading-box", "ink", "ink-threshold", "arrow-style", "hardness", "close-gaps",
-                                  "flats", "same-colour", "suggest", "on-cycle", "expansion", "relations", NULL);
+  if (celd_has_argument (config, "suggest"))
+    gimp_procedure_dialog_fill_box (dialog, "reading-box", "ink", "ink-threshold", "arrow-style", "hardness",
+                                    "close-gaps", "flats", "same-colour", "suggest", "on-cycle", "expansion",
+                                    "relations", NULL);
+  else
+    gimp_procedure_dialog_fill_box (dialog, "reading-box", "ink", "ink-threshold", "arrow-style", "hardness",
+                                    "close-gaps", "flats", "same-colour", "relations", NULL);
   gimp_procedure_dialog_fill_expander (dialog, "reading", "reading-title", FALSE, "reading-box");
 }
 
@@ -207,25 +205,38 @@ set_sensitivity (GimpProcedureDialog *dialog, GimpProcedureConfig *config)
     gimp_procedure_dialog_set_sensitive (dialog, shadow[i], TRUE, G_OBJECT (config), "enhanced", FALSE);
 }
 
+static void
+fill (GimpProcedureDialog *dialog, GimpProcedureConfig *config, GimpImage *image)
+{
+  fill_reading (dialog, config);
+  if (celd_has_argument (config, "lit"))
+    {
+      fill_pictures (dialog, image);
+      fill_light (dialog);
+      fill_shadows (dialog);
+      set_sensitivity (dialog, config);
+      gimp_procedure_dialog_fill (dialog, "pictures-frame", "light", "shadows", "reading", NULL);
+    }
+  else if (celd_has_argument (config, "complete"))
+    gimp_procedure_dialog_fill (dialog, "complete", "reading", NULL);
+  else
+    gimp_procedure_dialog_fill (dialog, "reading", NULL);
+}
+
 gboolean
-celd_popup_dialog (GimpProcedure *procedure, GimpProcedureConfig *config, GimpImage *image)
+celd_dialog_run (GimpProcedure *procedure, GimpProcedureConfig *config, GimpImage *image, const char *title)
 {
   GtkWidget           *window;
   GimpProcedureDialog *dialog;
   gboolean             go;
 
   gimp_ui_init ("celdepth");
-  window = gimp_procedure_dialog_new (procedure, config, "Pop-up");
+  window = gimp_procedure_dialog_new (procedure, config, title);
   dialog = GIMP_PROCEDURE_DIALOG (window);
   gimp_procedure_dialog_set_ok_label (dialog, "_Make");
   gtk_box_pack_start (GTK_BOX (gtk_dialog_get_content_area (GTK_DIALOG (window))), layers_frame (image, config), FALSE,
                       FALSE, 0);
-  fill_pictures (dialog, image);
-  fill_light (dialog);
-  fill_shadows (dialog);
-  fill_reading (dialog);
-  set_sensitivity (dialog, config);
-  gimp_procedure_dialog_fill (dialog, "pictures-frame", "light", "shadows", "reading", NULL);
+  fill (dialog, config, image);
   go = gimp_procedure_dialog_run (dialog);
   gtk_widget_destroy (window);
   return go;

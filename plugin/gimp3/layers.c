@@ -108,6 +108,15 @@ celd_layers_lowest (GimpImage *image, GimpLayer *const found[CELD_N_LAYERS])
 /* ------------------------------------------------------------------ opening */
 
 gboolean
+celd_image_has_few_bits (GimpImage *image)
+{
+  GimpPrecision precision = gimp_image_get_precision (image);
+
+  return precision == GIMP_PRECISION_U8_LINEAR || precision == GIMP_PRECISION_U8_NON_LINEAR ||
+         precision == GIMP_PRECISION_U8_PERCEPTUAL;
+}
+
+gboolean
 celd_layers_open (GimpImage *image, GimpLayer *const layer[CELD_N_LAYERS], CeldPipelineInput *input, GError **error)
 {
   input->width  = gimp_image_get_width (image);

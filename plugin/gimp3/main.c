@@ -6,7 +6,9 @@
 
 #define MENU "<Image>/Cartoon Depth"
 
-static const CeldProcedure *const procedures[] = { &celd_setup_procedure, &celd_popup_procedure };
+static const CeldProcedure *const procedures[] = {
+  &celd_setup_procedure, &celd_popup_procedure, &celd_split_procedure, &celd_suggest_procedure,
+};
 
 typedef struct { GimpPlugIn parent_instance; } CeldPlugIn;
 typedef struct { GimpPlugInClass parent_class; } CeldPlugInClass;
@@ -33,7 +35,7 @@ create_procedure (GimpPlugIn *plug_in, const char *name)
       {
         const CeldProcedure *p = procedures[i];
         GimpProcedure       *procedure = gimp_image_procedure_new (plug_in, name, GIMP_PDB_PROC_TYPE_PLUGIN, p->run,
-                                                                   NULL, NULL);
+                                                                   (gpointer) p, NULL);
 
         gimp_procedure_set_image_types (procedure, "*");
         gimp_procedure_set_sensitivity_mask (procedure, GIMP_PROCEDURE_SENSITIVE_DRAWABLE |

@@ -7,9 +7,8 @@
 
 #include <string.h>
 
-#define GROUP_PARASITE   "celdepth-results"
-#define PICTURE_PARASITE "celdepth-picture" /* its data: the name of the picture's argument */
-#define GROUP_NAME       "Cartoon Depth"
+#define GROUP_PARASITE "celdepth-results"
+#define GROUP_NAME     "Cartoon Depth"
 
 /* From the top of the group to the bottom.  Pictures that show numbers or light alone have no alpha. */
 static const struct { CeldPicture picture; const char *name; GimpImageType type; } layers[CELD_POPUP_PICTURES] = {
@@ -24,8 +23,8 @@ static const struct { CeldPicture picture; const char *name; GimpImageType type;
 
 /* ------------------------------------------------------------------ parasites */
 
-static void
-mark (gpointer item, const char *name, const char *text)
+void
+celd_item_mark (gpointer item, const char *name, const char *text)
 {
   GimpParasite *parasite = gimp_parasite_new (name, GIMP_PARASITE_PERSISTENT | GIMP_PARASITE_UNDOABLE,
                                               (guint32) strlen (text) + 1, text);
@@ -34,9 +33,8 @@ mark (gpointer item, const char *name, const char *text)
   gimp_parasite_free (parasite);
 }
 
-/* Whether the item has this mark, with this text if that is not NULL. */
-static gboolean
-is_marked (GimpItem *item, const char *name, const char *text)
+gboolean
+celd_item_is_marked (GimpItem *item, const char *name, const char *text)
 {
   GimpParasite *parasite = gimp_item_get_parasite (item, name);
   guint32       size = 0;
@@ -51,7 +49,7 @@ is_marked (GimpItem *item, const char *name, const char *text)
 gboolean
 celd_results_is_group (GimpItem *item)
 {
-  return gimp_item_is_group (item) && is_marked (item, GROUP_PARASITE, NULL);
+  return gimp_item_is_group (item) && celd_item_is_marked (item, GROUP_PARASITE, NULL);
 }
 
 /* ------------------------------------------------------------------ finding */
@@ -86,7 +84,7 @@ get_group (GimpImage *image)
   if (found)
     return GIMP_GROUP_LAYER (found);
   group = gimp_group_layer_new (image, GROUP_NAME);
-  mark (group, GROUP_PARASITE, "1");
+  celd_item_mark (group, GROUP_PARASITE, "1");
   gimp_image_insert_layer (image, GIMP_LAYER (group), NULL, 0);
   return group;
 }
@@ -99,7 +97,7 @@ find_layer (GimpGroupLayer *group, CeldPicture picture)
   GimpLayer *found = NULL;
 
   for (int i = 0; children && children[i] && !found; i++)
-    if (is_marked (children[i], PICTURE_PARASITE, celd_picture_arguments[picture]))
+    if (celd_item_is_marked (children[i], CELD_PICTURE_MARK, celd_picture_arguments[picture]))
       found = GIMP_LAYER (children[i]);
   g_free (children);
   return found;
@@ -118,7 +116,7 @@ add_layer (GimpImage *image, CeldPipeline *pipeline, GimpGroupLayer *group, gsiz
   gboolean    good = celd_pipeline_write (pipeline, layers[i].picture, buffer, error);
 
   g_object_unref (buffer); /* which sends the pixels */
-  mark (layer, PICTURE_PARASITE, celd_picture_arguments[layers[i].picture]);
+  celd_item_mark (layer, CELD_PICTURE_MARK, celd_picture_arguments[layers[i].picture]);
   gimp_item_set_visible (GIMP_ITEM (layer), visible);
   gimp_image_insert_layer (image, layer, GIMP_LAYER (group), position);
   return good;
@@ -197,19 +195,7 @@ write_unselected (GimpImage *image, CeldPipeline *pipeline, GimpGroupLayer *grou
 GimpGroupLayer *
 celd_results_write (GimpImage *image, CeldPipeline *pipeline, guint wanted, GError **error)
 {
-  GimpLayer     **selected = gimp_image_get_selected_layers (image);
   GimpGroupLayer *group = get_group (image);
-  gboolean        good = write_unselected (image, pipeline, group, wanted, error);
-  int             n = 0;
 
-  for (int i = 0; selected && selected[i]; i++) /* a result that was removed cannot be selected again */
-    if (gimp_item_is_valid (GIMP_ITEM (selected[i])))
-      selected[n++] = selected[i];
-  if (n)
-    {
-      selected[n] = NULL;
-      gimp_image_set_selected_layers (image, (const GimpLayer **) selected);
-    }
-  g_free (selected);
-  return good ? group : NULL;
+  return write_unselected (image, pipeline, group, wanted, error) ? group : NULL;
 }

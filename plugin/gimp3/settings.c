@@ -1,5 +1,5 @@
-/* Arguments of Pop-up: layers, pictures, and settings, which are made from the table of settings.  And how they are
- * remembered with an image: as a parasite, a key file.
+/* Arguments: layers, pictures, and settings, which are made from the table of settings.  And how they are remembered
+ * with an image, by all procedures together: as a parasite, a key file.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -42,15 +42,18 @@ static const struct { const char *label, *help; gboolean usual; } pictures[CELD_
   [CELD_PICTURE_ENHANCED] = { "Drawing with sha_dows", "The drawing with soft shadows behind nearer parts", FALSE },
 };
 
-/* Settings of core that are offered; `choices` is the number of choices, if not all are. */
-static const struct { const char *name; int choices; } offered[] = {
-  { .name = "light-azimuth" }, { .name = "light-elevation" }, { .name = "ambient" },
-  { .name = "light-model", .choices = CELD_MODEL_MATCAP }, { .name = "toon-steps" }, { .name = "specular" },
-  { .name = "rim-light" }, { .name = "bulge" }, { .name = "bevel" },
-  { .name = "shadow-strength" }, { .name = "shadow-size" }, { .name = "shadow-offset" },
-  { .name = "ink" }, { .name = "ink-threshold" }, { .name = "arrow-style" }, { .name = "hardness" },
-  { .name = "close-gaps" }, { .name = "flats" }, { .name = "same-colour" }, { .name = "suggest" },
-  { .name = "on-cycle" }, { .name = "expansion" },
+#define ALL (CELD_FOR_POPUP | CELD_FOR_SPLIT | CELD_FOR_SUGGEST)
+
+/* Settings of core, and who offers them; `choices` is the number of choices, if not all are. */
+static const struct { const char *name; guint offered; int choices; } offered[] = {
+  { "light-azimuth", CELD_FOR_POPUP, 0 }, { "light-elevation", CELD_FOR_POPUP, 0 }, { "ambient", CELD_FOR_POPUP, 0 },
+  { "light-model", CELD_FOR_POPUP, CELD_MODEL_MATCAP }, { "toon-steps", CELD_FOR_POPUP, 0 },
+  { "specular", CELD_FOR_POPUP, 0 }, { "rim-light", CELD_FOR_POPUP, 0 }, { "bulge", CELD_FOR_POPUP, 0 },
+  { "bevel", CELD_FOR_POPUP, 0 }, { "shadow-strength", CELD_FOR_POPUP, 0 }, { "shadow-size", CELD_FOR_POPUP, 0 },
+  { "shadow-offset", CELD_FOR_POPUP, 0 }, { "complete", CELD_FOR_SPLIT, 0 },
+  { "ink", ALL, 0 }, { "ink-threshold", ALL, 0 }, { "arrow-style", ALL, 0 }, { "hardness", ALL, 0 },
+  { "close-gaps", ALL, 0 }, { "flats", ALL, 0 }, { "same-colour", ALL, 0 }, { "suggest", ALL & ~CELD_FOR_SUGGEST, 0 },
+  { "on-cycle", ALL & ~CELD_FOR_SUGGEST, 0 }, { "expansion", ALL & ~CELD_FOR_SUGGEST, 0 },
 };
 
 /* ------------------------------------------------------------------ arguments */
@@ -92,17 +95,25 @@ add_setting (GimpProcedure *procedure, const CeldSettingInfo *row, int choices)
     }
 }
 
+gboolean
+celd_has_argument (GimpProcedureConfig *config, const char *name)
+{
+  return g_object_class_find_property (G_OBJECT_GET_CLASS (config), name) != NULL;
+}
+
 void
-celd_settings_add_arguments (GimpProcedure *procedure)
+celd_settings_add_arguments (GimpProcedure *procedure, guint whose)
 {
   for (int role = 0; role < CELD_N_LAYERS; role++)
-    gimp_procedure_add_layer_argument (procedure, celd_layer_arguments[role], celd_layer_role_name ((CeldLayerRole) role),
-                                       layer_help[role], TRUE, G_PARAM_READWRITE);
-  for (int i = 0; i < CELD_POPUP_PICTURES; i++)
+    gimp_procedure_add_layer_argument (procedure, celd_layer_arguments[role],
+                                       celd_layer_role_name ((CeldLayerRole) role), layer_help[role], TRUE,
+                                       G_PARAM_READWRITE);
+  for (int i = 0; whose & CELD_FOR_POPUP && i < CELD_POPUP_PICTURES; i++)
     gimp_procedure_add_boolean_argument (procedure, celd_picture_arguments[i], pictures[i].label, pictures[i].help,
                                          pictures[i].usual, G_PARAM_READWRITE);
   for (gsize i = 0; i < G_N_ELEMENTS (offered); i++)
-    add_setting (procedure, celd_setting_find (offered[i].name), offered[i].choices);
+    if (offered[i].offered & whose)
+      add_setting (procedure, celd_setting_find (offered[i].name), offered[i].choices);
   gimp_procedure_add_string_argument (procedure, "relations", "Relations",
                                       "Relations as text, beside arrows: 120,80 > 300,95 or #ff0000 > #0000ff", "",
                                       G_PARAM_READWRITE);
@@ -119,6 +130,8 @@ celd_settings_chosen (GimpProcedureConfig *config)
       double                 number = 0;
       int                    whole = 0;
 
+      if (!celd_has_argument (config, row->name))
+        continue;
       if (row->type == CELD_SETTING_NUMBER)
         g_object_get (config, row->name, &number, NULL);
       else if (row->type == CELD_SETTING_CHOICE)
@@ -231,6 +244,8 @@ keep_layers (GKeyFile *file, GimpImage *image, GimpProcedureConfig *config)
     if (chosen[role] != named[role])
       g_key_file_set_integer (file, GROUP, celd_layer_arguments[role],
                               chosen[role] ? (int) gimp_item_get_tattoo (GIMP_ITEM (chosen[role])) : 0);
+    else
+      g_key_file_remove_key (file, GROUP, celd_layer_arguments[role], NULL);
 }
 
 static void
@@ -254,10 +269,26 @@ set_layers (GKeyFile *file, GimpImage *image, GimpProcedureConfig *config)
     g_object_set (config, celd_layer_arguments[role], layer[role], NULL);
 }
 
+/* What is kept with the image already, or an empty file. */
+static GKeyFile *
+kept_file (GimpImage *image)
+{
+  GKeyFile     *file = g_key_file_new ();
+  GimpParasite *parasite = gimp_image_get_parasite (image, PARASITE);
+  guint32       length = 0;
+  const char   *text = parasite ? gimp_parasite_get_data (parasite, &length) : NULL;
+
+  if (length)
+    g_key_file_load_from_data (file, text, length - 1, G_KEY_FILE_NONE, NULL);
+  if (parasite)
+    gimp_parasite_free (parasite);
+  return file;
+}
+
 void
 celd_settings_remember (GimpImage *image, GimpProcedureConfig *config)
 {
-  GKeyFile     *file = g_key_file_new ();
+  GKeyFile     *file = kept_file (image);
   guint         n;
   GParamSpec  **specs = g_object_class_list_properties (G_OBJECT_GET_CLASS (config), &n);
   char         *text;
@@ -269,7 +300,8 @@ celd_settings_remember (GimpImage *image, GimpProcedureConfig *config)
       keep_argument (file, G_OBJECT (config), specs[i]);
   keep_layers (file, image, config);
   text     = g_key_file_to_data (file, &length, NULL);
-  parasite = gimp_parasite_new (PARASITE, GIMP_PARASITE_PERSISTENT | GIMP_PARASITE_UNDOABLE, (guint32) length + 1, text);
+  parasite = gimp_parasite_new (PARASITE, GIMP_PARASITE_PERSISTENT | GIMP_PARASITE_UNDOABLE, (guint32) length + 1,
+                                text);
   gimp_image_attach_parasite (image, parasite);
   gimp_parasite_free (parasite);
   g_free (text);
@@ -280,22 +312,13 @@ celd_settings_remember (GimpImage *image, GimpProcedureConfig *config)
 void
 celd_settings_recall (GimpImage *image, GimpProcedureConfig *config)
 {
-  GKeyFile     *file = g_key_file_new ();
-  GimpParasite *parasite = gimp_image_get_parasite (image, PARASITE);
-  guint         n;
-  GParamSpec  **specs = g_object_class_list_properties (G_OBJECT_GET_CLASS (config), &n);
+  GKeyFile    *file = kept_file (image);
+  guint        n;
+  GParamSpec **specs = g_object_class_list_properties (G_OBJECT_GET_CLASS (config), &n);
 
-  if (parasite)
-    {
-      guint32     length = 0;
-      const char *text = gimp_parasite_get_data (parasite, &length);
-
-      g_key_file_load_from_data (file, text, length ? length - 1 : 0, G_KEY_FILE_NONE, NULL);
-      for (guint i = 0; i < n; i++)
-        if (is_kept (specs[i]))
-          set_argument (file, G_OBJECT (config), specs[i]);
-      gimp_parasite_free (parasite);
-    }
+  for (guint i = 0; i < n; i++)
+    if (is_kept (specs[i]))
+      set_argument (file, G_OBJECT (config), specs[i]);
   set_layers (file, image, config);
   g_free (specs);
   g_key_file_unref (file);

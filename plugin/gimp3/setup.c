@@ -147,8 +147,9 @@ add_arguments (GimpProcedure *procedure)
 {
   for (gsize i = 0; i < G_N_ELEMENTS (made); i++)
     gimp_procedure_add_boolean_argument (procedure, celd_layer_arguments[made[i].role],
-                                         celd_layer_role_name (made[i].role), "Whether this layer is made if it is missing",
-                                         made[i].usual, G_PARAM_READWRITE);
+                                         celd_layer_role_name (made[i].role),
+                                         "Whether this layer is made if it is missing", made[i].usual,
+                                         G_PARAM_READWRITE);
 }
 
 const CeldProcedure celd_setup_procedure = {

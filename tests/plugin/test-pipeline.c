@@ -135,6 +135,42 @@ progress_rises_and_cancels (void)
   celd_pipeline_free (pipeline);
 }
 
+/* One for each region, from the back; over each other they are the drawing. */
+static void
+layers_are_the_drawing_again (void)
+{
+  static const char *const names[] = { "#0000ff", "#00ff00", "#ff0000" };
+  static float             seen[4 * PIXELS], layer[4 * PIXELS], art[4 * PIXELS];
+  CeldPipelineInput        input = page_input ();
+  CeldPipeline            *pipeline = celd_pipeline_new (&input, NULL);
+  Watch                    all = { 0, 0, G_MAXINT };
+
+  CHECK (celd_pipeline_n_layers (pipeline) == 0);
+  CHECK (celd_pipeline_cut (pipeline, 32, watch, &all, NULL));
+  CHECK (celd_pipeline_n_layers (pipeline) == 3);
+  for (gsize i = 0; i < celd_pipeline_n_layers (pipeline); i++)
+    {
+      GeglRectangle box = celd_pipeline_layer_box (pipeline, i);
+      GeglBuffer   *buffer = gegl_buffer_new (GEGL_RECTANGLE (0, 0, box.width, box.height), babl_format ("RGBA float"));
+      char         *name = celd_pipeline_layer_name (pipeline, i);
+
+      CHECK (!strcmp (name, names[i]));
+      CHECK (celd_pipeline_write_layer (pipeline, i, buffer, NULL));
+      gegl_buffer_get (buffer, GEGL_RECTANGLE (-box.x, -box.y, WIDTH, HEIGHT), 1, babl_format ("RGBA float"), layer,
+                       GEGL_AUTO_ROWSTRIDE, GEGL_ABYSS_NONE);
+      for (int k = 0; k < 4 * PIXELS; k += 4)
+        for (int c = 0; c < 3; c++)
+          seen[k + c] = layer[k + 3] * layer[k + c] + (1 - layer[k + 3]) * seen[k + c];
+      g_object_unref (buffer);
+      g_free (name);
+    }
+  gegl_buffer_get (drawing, NULL, 1, babl_format ("RGBA float"), art, GEGL_AUTO_ROWSTRIDE, GEGL_ABYSS_NONE);
+  for (int k = 3; k < 4 * PIXELS; k += 4)
+    seen[k] = art[k];
+  NEAR (difference (seen, art, 4 * PIXELS), 0, 1e-4);
+  celd_pipeline_free (pipeline);
+}
+
 /* ------------------------------------------------------------------ messages */
 
 /* Whether this input is refused with a message that has these words. */
@@ -217,6 +253,7 @@ main (void)
   RUN (layers_may_be_smaller_than_the_image);
   RUN (relations_count_as_arrows_do);
   RUN (progress_rises_and_cancels);
+  RUN (layers_are_the_drawing_again);
   RUN (input_without_sense_is_refused);
   RUN (problems_are_told);
   drop_page ();

@@ -62,11 +62,30 @@ cycles_name_the_other_relations (void)
   CHECK (strstr (text, "#000000") && strstr (text, "(17, 0)") && strstr (text, "same-colour=separate"));
 }
 
+static void
+labels_are_named_by_colours (void)
+{
+  CeldRegion  region[4] = { { .colour = { 255, 0, 16, 255 } }, { .colour = { 0 } }, { .colour = { 1, 2, 3, 255 } },
+                            { .colour = { 1, 2, 3, 255 } } };
+  CeldPalette palette = { region, 4 };
+  char        name[40], small[4];
+
+  celd_label_name (&palette, 1, name, sizeof name);
+  CHECK (!strcmp (name, "#ff0010"));
+  celd_label_name (&palette, 2, name, sizeof name);
+  CHECK (!strcmp (name, "background"));
+  celd_label_name (&palette, 4, name, sizeof name);
+  CHECK (!strcmp (name, "#010203 label 4"));
+  celd_label_name (&palette, 1, small, sizeof small);
+  CHECK (!strcmp (small, "#ff"));
+}
+
 int
 main (void)
 {
   RUN (every_status_has_a_text);
   RUN (problems_say_what_and_where);
   RUN (cycles_name_the_other_relations);
+  RUN (labels_are_named_by_colours);
   return DONE;
 }

@@ -251,6 +251,54 @@ def layers_can_be_named_by_a_script():
     image.delete()
 
 
+def colour(rgb):
+    return '#%02x%02x%02x' % tuple(rgb)
+
+
+def layers_are_the_drawing_again():
+    image = open_people(8)
+    labels = np.array(Image.open(os.path.join(OUT, 'labels.png')).convert('RGB'))
+    for complete in (False, True):
+        good, group, message = run('plug-in-celdepth-split-into-layers', image, complete=complete)
+        check(good, f'Split into layers runs {message}')
+        names = ['#' + layer.get_name().split('#')[1][:6] for layer in group.get_children()]
+        check(sorted(names) == sorted(set(map(colour, labels.reshape(-1, 3)))) and names[-1] == colour(labels[0, 0]),
+              f'there is a layer for each part, the background last: {names}')
+        seen = pixels(group, "R'G'B' float", np.float32, 3)
+        wanted = np.array(Image.open(os.path.join(EXAMPLES, 'people', 'drawing.png')).convert('RGB')) / 255
+        difference = np.abs(seen - wanted).max()
+        check(difference <= 1 / 255 + 1e-6, f'layers over each other differ from the drawing by {difference:.2e}')
+    alpha = [(pixels(layer, 'A float', np.float32, 1) > 0).sum() for layer in group.get_children()]
+    other = next(layer for layer in image.get_layers() if layer.get_name() == 'Layers')
+    check(other.get_id() != group.get_id(), 'another run makes another group')
+    check(sum(alpha) > sum((pixels(layer, 'A float', np.float32, 1) > 0).sum() for layer in other.get_children()),
+          'completed layers have what is hidden')
+    image.delete()
+
+
+def suggestions_are_arrows():
+    image = open_people(8)
+    good, layer, message = run('plug-in-celdepth-suggest-order', image)
+    check(good and layer.get_name() == 'Suggested arrows', f'Suggest order runs {message}')
+    arrows = by_name(image, 'Arrows')
+    check(layer.get_parent().get_id() == arrows.get_parent().get_id() and
+          image.get_item_position(layer) + 1 == image.get_item_position(arrows), 'suggestions lie above the arrows')
+    wanted = np.array(Image.open(os.path.join(OUT, 'suggestions.png')).convert('RGBA')) / 255
+    found = pixels(layer, "R'G'B'A float", np.float32, 4)
+    check(np.abs((found - wanted) * (wanted[..., 3:] > 0)).max() <= 1 / 255 + 1e-6 and
+          np.array_equal(found[..., 3] > 0, wanted[..., 3] > 0), 'they are those of the command')
+    n = len(list(all_layers(image.get_layers())))
+    run('plug-in-celdepth-suggest-order', image)
+    check(len(list(all_layers(image.get_layers()))) == n, 'another run replaces the layer')
+    image.remove_layer(by_name(image, 'Suggested arrows'))
+    image.remove_layer(arrows)
+    good, layer, _ = run('plug-in-celdepth-suggest-order', image)
+    check(good and layer.get_name() == 'Arrows', 'without a layer of arrows it is that layer')
+    good, _, message = pop_up(image, ['depth'])
+    check(good, f'which Pop-up reads {message}')
+    image.delete()
+
+
 def set_up_layers_makes_what_is_missing():
     image = Gimp.file_load(QUIET, file(EXAMPLES, 'people', 'drawing.png'))
     if image.get_base_type() == Gimp.ImageBaseType.RGB:
@@ -279,6 +327,8 @@ results_are_those_of_the_command()
 a_second_run_updates_in_place()
 input_without_sense_is_refused()
 layers_can_be_named_by_a_script()
+layers_are_the_drawing_again()
+suggestions_are_arrows()
 set_up_layers_makes_what_is_missing()
 image = open_people(8, small=True)
 Gimp.file_save(QUIET, image, file(OUT, 'plugin-people.xcf'), None)

@@ -1,0 +1,45 @@
+/* What the files of the pipeline share.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#ifndef CELD_PIPELINE_PARTS_H
+#define CELD_PIPELINE_PARTS_H
+
+#include "pipeline.h"
+
+struct CeldPipeline
+{
+  CeldSession     *session;
+  CeldSettings     settings;
+  int              width, height;
+  CeldColours      art;               /* the drawing in linear light */
+  CeldColours      lit, enhanced;     /* data NULL: not made */
+  const CeldOrder *order;             /* of the session; NULL: not made */
+  CeldLayers      *layers;            /* NULL: not cut */
+};
+
+#define OF(picture) (1u << CELD_PICTURE_##picture)
+
+/* TRUE if the status is CELD_OK; else *error has its text. */
+gboolean celd_pipeline_try (CeldStatus status, GError **error);
+
+/* Memory for so many components a pixel, `size` bytes each, and pictures, not cleared; data NULL if there is none. */
+gpointer    celd_pipeline_new_picture (const CeldPipeline *p, gsize components, gsize size);
+CeldPlane   celd_pipeline_new_plane   (const CeldPipeline *p);
+CeldPaint   celd_pipeline_new_paint   (const CeldPipeline *p);
+CeldColours celd_pipeline_new_colours (const CeldPipeline *p);
+
+/* Progress of one step, which begins at `from`, as that of all; a CeldHost.progress for it. */
+typedef struct
+{
+  CeldPipelineProgress progress;
+  gpointer             data;
+  const char          *name;
+  double               from, part;
+} CeldPipelineReport;
+bool celd_pipeline_report (void *report, double done);
+
+/* Replaces a picture (data may be NULL) by a copy of the art. */
+CeldStatus celd_pipeline_copy_art (const CeldPipeline *p, CeldColours *copy);
+
+#endif
