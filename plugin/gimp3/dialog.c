@@ -218,7 +218,11 @@ fill (GimpProcedureDialog *dialog, GimpProcedureConfig *config, GimpImage *image
       gimp_procedure_dialog_fill (dialog, "pictures-frame", "light", "shadows", "reading", NULL);
     }
   else if (celd_has_argument (config, "complete"))
-    gimp_procedure_dialog_fill (dialog, "complete", "reading", NULL);
+    {
+      gtk_button_set_label (GTK_BUTTON (gimp_procedure_dialog_get_widget (dialog, "complete", G_TYPE_NONE)),
+                            "Complete what nearer parts hide");
+      gimp_procedure_dialog_fill (dialog, "complete", "reading", NULL);
+    }
   else
     gimp_procedure_dialog_fill (dialog, "reading", NULL);
 }
