@@ -60,7 +60,7 @@ class Stereo(Test):
         self.assertNotIn('disparity', self.stereo('--left', 'l.npy'))
 
         self.assertIn('convergence of 1', self.stereo('--left', 'l.npy', '--convergence', '0', '--disparity', '0.03',
-                                                      '--relations', '70,45 > 20,20; 4,4 > 20,20'))
+                                                      '--relations', '70,45 > 4,4; 4,4 > 20,20'))
         self.assertNotIn('apart', self.stereo('--left', 'l.npy', '--screen-width', '6000'))
         self.assertIn('apart', self.stereo('--left', 'l.npy', '--screen-width', '7000'))
 
@@ -68,7 +68,7 @@ class Stereo(Test):
 
     def test_floating_window_hides_what_the_frame_cuts(self):
         """The page lies before box A and behind box B: the frame cuts it before the screen."""
-        words = ('--disparity', '0.0625', '--convergence', '0', '--relations', '70,45 > 20,20; 4,4 > 20,20')
+        words = ('--disparity', '0.0625', '--convergence', '0', '--relations', '70,45 > 4,4; 4,4 > 20,20')
         self.stereo('--left', 'l.npy', '--right', 'r.npy', *words)
         self.stereo('--left', 'wl.npy', '--right', 'wr.npy', '--floating-window', 'yes', *words)
         left, right, window_left, window_right = (np.load(self.path(f + '.npy')) for f in ('l', 'r', 'wl', 'wr'))
