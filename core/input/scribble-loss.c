@@ -25,6 +25,10 @@
 #define PALE_LUMA       16      /* deficit of luma: paper, or nearly */
 #define VIVID_CHROMA    25      /* mean chroma of strokes that show whether it is smeared */
 #define SMEARED         0.04    /* least part of all chroma beside the strokes, if it is smeared; chosen */
+#define TINT            3       /* largest deficit of a pixel that is not paper, at least */
+#define MIXTURE_ERROR   2.5     /* from a tint to the nearest mixture of stroke and paper, at most: rounding */
+#define SOFT            0.75    /* part of tints that are mixtures, from which on brushes were soft; chosen: it was at
+                                   least 0.96 for soft brushes, and at most 0.4 for JPEG */
 
 static inline void
 deficit (const CeldScribbleLayer *r, int x, int y, int *d)
@@ -43,12 +47,53 @@ luma_of (const int *d)
 
 /* ------------------------------------------------------------------ is chroma smeared? */
 
+/* What add_smear sums up over blocks. */
+typedef struct
+{
+  double beside, all;   /* chroma on paper, and all chroma */
+  size_t tints, mixed;  /* pale pixels that are not paper, and those of them that are mixtures of stroke and paper */
+} Smear;
+
+/* Is the deficit a fraction of that of a stroke? */
+static bool
+is_mixed (const int *d, const double *stroke)
+{
+  double dot = 0, length2 = 0, error2 = 0;
+
+  for (int i = 0; i < 3; i++)
+    {
+      dot += d[i] * stroke[i];
+      length2 += stroke[i] * stroke[i];
+      error2 += d[i] * d[i];
+    }
+  if (length2 > 0)
+    error2 -= dot * dot / length2;
+  return error2 <= MIXTURE_ERROR * MIXTURE_ERROR;
+}
+
+/* Counts the tints of a block whose strokes have the given deficit. */
+static void
+count_tints (const CeldScribbleLayer *r, int left, int top, const double *stroke, Smear *smear)
+{
+  for (int y = top; y < top + BLOCK && y < r->height; y++)
+    for (int x = left; x < left + BLOCK && x < r->width; x++)
+      {
+        int d[3];
+
+        deficit (r, x, y, d);
+        if (luma_of (d) > PALE_LUMA || (abs (d[0]) < TINT && abs (d[1]) < TINT && abs (d[2]) < TINT))
+          continue;
+        smear->tints++;
+        smear->mixed += is_mixed (d, stroke);
+      }
+}
+
 /* Adds the chroma of a block's paper, as far as it has the direction of the chroma of its strokes, and that of both.
  * Chroma is red and blue less luma. */
 static void
-add_smear (const CeldScribbleLayer *r, int left, int top, double *beside, double *all)
+add_smear (const CeldScribbleLayer *r, int left, int top, Smear *smear)
 {
-  double paper[2] = { 0 }, stroke[2] = { 0 }, length;
+  double paper[2] = { 0 }, stroke[2] = { 0 }, full[3] = { 0 }, length;
   int    n = 0;
 
   for (int y = top; y < top + BLOCK && y < r->height; y++)
@@ -63,26 +108,31 @@ add_smear (const CeldScribbleLayer *r, int left, int top, double *beside, double
         sum = luma > PALE_LUMA ? stroke : paper;
         sum[0] += d[0] - luma;
         sum[1] += d[2] - luma;
+        for (int i = 0; i < 3 && luma > PALE_LUMA; i++)
+          full[i] += d[i];
       }
   length = hypot (stroke[0], stroke[1]);
   if (n < LUMA_BLOCK || length < VIVID_CHROMA * n)
     return;
-  *beside += (paper[0] * stroke[0] + paper[1] * stroke[1]) / length;
-  *all += (paper[0] * stroke[0] + paper[1] * stroke[1]) / length + length;
+  smear->beside += (paper[0] * stroke[0] + paper[1] * stroke[1]) / length;
+  smear->all += (paper[0] * stroke[0] + paper[1] * stroke[1]) / length + length;
+  count_tints (r, left, top, full, smear);
 }
 
+/* The tails of soft brushes have chroma, too, but are exact mixtures of stroke and paper, while loss moves luma and
+ * chroma apart. */
 bool
 celd_scribble_smeared (const CeldScribbleLayer *r)
 {
-  double beside = 0, all = 0;
+  Smear smear = { .all = 0 };
 
   for (int i = 0; i < 3; i++)
     if (!r->paper || r->colour[r->paper].channel[i] < WHITE_PAPER)
       return false;
   for (int y = 0; y < r->height; y += BLOCK)
     for (int x = 0; x < r->width; x += BLOCK)
-      add_smear (r, x, y, &beside, &all);
-  return beside > SMEARED * all;
+      add_smear (r, x, y, &smear);
+  return smear.beside > SMEARED * smear.all && (double) smear.mixed < SOFT * (double) smear.tints;
 }
 
 /* ------------------------------------------------------------------ strokes, by luma */

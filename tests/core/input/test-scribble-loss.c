@@ -1,4 +1,5 @@
 /* Thin strokes whose chroma a codec has smeared: it stays in blocks of 16 pixels, and so does its sum; luma is shaken.
+ * The tails of soft brushes look like smear, but are none.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -118,19 +119,26 @@ smeared_strokes_keep_their_colours (void)
       }
 }
 
+/* Does the drawn picture count as smeared? */
 static bool
-is_smeared (double width, double share, int shake)
+is_smeared (void)
 {
   CeldPaint          paint = { W, H, W, &paint_of[0][0][0] };
   CeldScribbleLayer  r = { .paint = &paint, .width = W, .height = H, .pixels = W * H };
   CeldScribbleColour colour[2] = { { .pixels = 0 }, { .channel = { 255, 255, 255 } } };
 
-  draw (width);
-  store (share, shake);
   r.colour = colour;
   r.n = 2;
   r.paper = 1;
   return celd_scribble_smeared (&r);
+}
+
+static bool
+smears (double width, double share, int shake)
+{
+  draw (width);
+  store (share, shake);
+  return is_smeared ();
 }
 
 /* Noise alone does not smear, however strong; chroma that has left thin strokes does. */
@@ -139,9 +147,54 @@ smear_is_told_from_noise (void)
 {
   for (int width = 3; width < 13; width += 3)
     for (int shake = 0; shake < 16; shake += 5)
-      CHECK (!is_smeared (width, 1, shake));
+      CHECK (!smears (width, 1, shake));
   for (int shake = 0; shake < 16; shake += 5)
-    CHECK (is_smeared (3, 0.6, shake));
+    CHECK (smears (3, 0.6, shake));
+}
+
+/* Two strokes of a soft brush, 26 pixels across and of an opacity of 0.25, along steps of whole pixels.  Their colours
+ * on paper are 19 apart. */
+static void
+draw_soft (void)
+{
+  static const uint8_t pink[2][3] = { { 255, 13, 110 }, { 255, 13, 34 } };
+
+  memset (paint_of, 255, sizeof paint_of);
+  memset (painted, 0, sizeof painted);
+  for (int y = 0; y < H; y++)
+    for (int x = 20; x < 300; x++)
+      for (int k = 0; k < 2; k++)
+        {
+          int    away = abs (y - 40 - 90 * k - x / 2);
+          double cover = fmin (fmax (0.4 * (1 - away / 13.), 0), 0.25);
+
+          for (int i = 0; i < 3; i++)
+            paint_of[y][x][i] = (uint8_t) (cover * pink[k][i] + (1 - cover) * paint_of[y][x][i] + 0.5);
+          if (away < 5)
+            painted[y][x] = (uint32_t) k + 1;
+        }
+}
+
+/* The chroma of soft tails, much of it on pale pixels, comes from no codec, so that near colours stay apart. */
+static void
+soft_tails_are_no_smear (void)
+{
+  size_t pixels[2][2] = { { 0 } }, all[2] = { 0 };
+
+  draw_soft ();
+  CHECK (!is_smeared ());
+  read_paint ();
+  NEAR (palette.n, 2, 0);
+  for (int p = 0; p < W * H; p++)
+    if (painted[p / W][p % W])
+      {
+        uint32_t k = painted[p / W][p % W] - 1, seed = seed_of[p / W][p % W];
+
+        all[k]++;
+        if (seed == 1 || seed == 2)
+          pixels[k][seed - 1]++;
+      }
+  CHECK ((pixels[0][0] == all[0] && pixels[1][1] == all[1]) || (pixels[0][1] == all[0] && pixels[1][0] == all[1]));
 }
 
 int
@@ -149,6 +202,7 @@ main (void)
 {
   RUN (smeared_strokes_keep_their_colours);
   RUN (smear_is_told_from_noise);
+  RUN (soft_tails_are_no_smear);
   celd_palette_clear (&palette);
   return DONE;
 }
