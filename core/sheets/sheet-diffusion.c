@@ -30,7 +30,7 @@
 #define GUIDE_START 1.5  /* cells before the end of the outline, so that nothing flows round */
 #define LEAST_FLOW  1e-3 /* across a guide, and out of strokes */
 
-enum { OUTSIDE, INSIDE, OPEN, PAINTED };
+enum { OUTSIDE, INSIDE, OPEN, PAINTED, THIN };
 
 typedef struct
 {
@@ -98,20 +98,50 @@ kind_of (const DiffusionWork *w, int x, int y)
   return hint == v->label ? PAINTED : !hint && !is_at_side (w, x, y) ? OPEN : OUTSIDE;
 }
 
-/* A region thinner than a cell may have the middle of none: then it has all that it touches. */
+/* Whether some pixel of a cell belongs to the region, if only in part. */
+static bool
+is_touched (const DiffusionWork *w, int x, int y)
+{
+  const CeldOwnership *own = w->view->own;
+  uint32_t             label = w->view->label;
+  const CeldDiffusion *d = w->d;
+  int                  left = d->window.x + x * d->cell, top = d->window.y + y * d->cell;
+
+  for (int py = top; py < top + d->cell && py < own->owner.height; py++)
+    for (int px = left; px < left + d->cell && px < own->owner.width; px++)
+      if (CELD_AT (&own->owner, px, py) == label ||
+          (CELD_AT (&own->under, px, py) == label && CELD_AT (&own->coverage, px, py) < 1))
+        return true;
+  return false;
+}
+
+/* Whether a cell or one of its eight neighbours has its middle in the region. */
+static bool
+is_at_region (const DiffusionWork *w, int x, int y)
+{
+  for (int v = y > 0 ? y - 1 : 0; v <= y + 1 && v < w->d->down; v++)
+    for (int u = x > 0 ? x - 1 : 0; u <= x + 1 && u < w->d->across; u++)
+      if (w->kind[cell_at (w->d, u, v)] == INSIDE)
+        return true;
+  return false;
+}
+
+/* What is thinner than a cell may have the middle of none, such as a thin region, or the rim of a thick line beyond a
+ * nearer region: then it has all that it touches. */
 static void
 mark_thin (const DiffusionWork *w)
 {
   const CeldDiffusion *d = w->d;
-  const CeldSheetView *v = w->view;
+  CeldRect             seen = w->view->seen;
+  size_t               cells = (size_t) d->across * (size_t) d->down;
 
-  for (size_t c = 0; c < (size_t) d->across * (size_t) d->down; c++)
-    if (w->kind[c] == INSIDE)
-      return;
-  for (int y = v->seen.y; y < v->seen.y + v->seen.height; y++)
-    for (int x = v->seen.x; x < v->seen.x + v->seen.width; x++)
-      if (celd_larger_label (v->own, x, y) == v->label)
-        w->kind[cell_at (d, (x - d->window.x) / d->cell, (y - d->window.y) / d->cell)] = INSIDE;
+  for (int y = (seen.y - d->window.y) / d->cell; y <= (seen.y + seen.height - 1 - d->window.y) / d->cell; y++)
+    for (int x = (seen.x - d->window.x) / d->cell; x <= (seen.x + seen.width - 1 - d->window.x) / d->cell; x++)
+      if (!is_at_region (w, x, y) && is_touched (w, x, y))
+        w->kind[cell_at (d, x, y)] = THIN;
+  for (size_t c = 0; c < cells; c++)
+    if (w->kind[c] == THIN)
+      w->kind[c] = INSIDE;
 }
 
 /* Spreads the mark `wanted` from inside and painted cells over neighbouring open ones; the others become outside. */

@@ -180,6 +180,28 @@ a_limb_goes_on_behind_a_post (void)
   scale = 1;
 }
 
+/* A panel on a thick line leaves a rim of the line beyond it, thinner than a cell: what is behind the panel is whole. */
+static double window (double x, double y) { return box (x, y, 20, 20, 140, 80); }
+static double panel  (double x, double y) { return box (x, y, 20.4, 20.4, 60, 79.6); }
+
+static void
+a_thin_rim_beyond_a_panel_counts (void)
+{
+  for (scale = 3; scale < 6; scale++)
+    {
+      LayerScene s = scene (160, 100);
+      float     *cover;
+
+      layer_scene_paint (&s, 2, black, window, NULL);
+      layer_scene_paint (&s, 3, black, panel, NULL);
+      cover = sheet_of (&s, 3, NULL, 2);
+      CHECK (overlap (&s, cover, window) > 0.98);
+      free (cover);
+      layer_scene_close (&s);
+    }
+  scale = 1;
+}
+
 /* Also behind what is four times as wide as it is. */
 static double thick, gap;
 static double thin_limb (double x, double y) { return box (x, y, 20, 60 - thick / 2, 280, 60 + thick / 2); }
@@ -380,6 +402,7 @@ main (void)
   RUN (nothing_makes_a_hole_in_what_it_lies_on);
   RUN (parts_at_the_outline_leave_no_bite);
   RUN (a_limb_goes_on_behind_a_post);
+  RUN (a_thin_rim_beyond_a_panel_counts);
   RUN (thin_limbs_join_behind_wide_posts);
   RUN (a_disc_goes_on_behind_a_board);
   RUN (a_stem_keeps_its_width_for_a_while);
