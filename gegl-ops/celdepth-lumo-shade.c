@@ -23,7 +23,8 @@ static const CeldSettingInfo result_row = {
 static const CeldProperty properties[] = {
   { .own = &result_row },
   { .name = "bulge" }, { .name = "bevel" }, { .name = "creases" }, { .name = "frame-outline" },
-  { .name = "light-model" }, { .name = "toon-steps" }, { .name = "light-background" }, { .name = "light" }, { .name = "light-azimuth" },
+  { .name = "light-model" }, { .name = "toon-steps" }, { .name = "light-background" }, { .name = "light" },
+  { .name = "light-azimuth" },
   { .name = "light-elevation" }, { .name = "ambient" }, { .name = "light-x" }, { .name = "light-y" },
   { .name = "light-height" }, { .name = "specular" }, { .name = "shininess" }, { .name = "rim-light" },
   { .name = "rim-power" },

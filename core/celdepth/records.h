@@ -280,8 +280,8 @@ typedef struct
   const CeldPlane   *ink;       /* for ends on ink, and for strokes on a page that is left out; may be NULL */
 } CeldFragment;
 
-/* Labels of all pixels of a frame that were propagated from a key, the certainty that celd_propagate gives, and how near
- * the key is, (0,1). */
+/* Labels of all pixels of a frame that were propagated from a key, the certainty that celd_propagate gives, and how
+ * near the key is, (0,1). */
 typedef struct { const CeldLabels *labels; const CeldPlane *certainty; double nearness; } CeldPropagated;
 
 /* A picture with its ink and its expanded levels, all of one size. */

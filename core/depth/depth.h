@@ -28,7 +28,8 @@
 /* Edges of a pixel that are cut, in one byte: the right one (down 0) and the lower one (down 1). */
 #define CELD_CUT(down) (uint8_t) (1u << (down))
 
-/* How far to both sides of an edge a line is looked for that is too thin to be full ink anywhere, in pixels (chosen). */
+/* How far to both sides of an edge a line is looked for that is too thin to be full ink anywhere, in pixels (chosen).
+ * */
 #define CELD_THIN_LINE_REACH 2
 
 /* What decides v_pq where levels differ: the least ink within `radius` pixels of both pixels; at or below the threshold

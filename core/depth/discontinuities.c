@@ -45,8 +45,8 @@ least_ink (const CeldDepthEdges *b, int x0, int y0, int x1, int y1)
   return least;
 }
 
-/* The width in pixels of a thin line that is crossed by n pixels from (x,y) on in steps of (dx,dy): how much darker they
- * are than the darker one of both ends, added up, which is not above 0 along a line; 0 if the line is not thin. */
+/* The width in pixels of a thin line that is crossed by n pixels from (x,y) on in steps of (dx,dy): how much darker
+ * they are than the darker one of both ends, added up, which is not above 0 along a line; 0 if the line is not thin. */
 static float
 line_across (const CeldDepthEdges *b, int x, int y, int dx, int dy, int n)
 {
@@ -67,8 +67,8 @@ line_across (const CeldDepthEdges *b, int x, int y, int dx, int dy, int n)
   return half <= THICKEST ? sum - (float) n * ends : 0;
 }
 
-/* Whether a line runs along the edge that is so thin that it need not be full ink in any pixel: between two rows of pixels
- * each has half of it. */
+/* Whether a line runs along the edge that is so thin that it need not be full ink in any pixel: between two rows of
+ * pixels each has half of it. */
 static bool
 is_thin_line (const CeldDepthEdges *b, int x, int y, int right, int down)
 {

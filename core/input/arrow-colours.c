@@ -2,8 +2,8 @@
  *
  * Arrows of different colours may share ends and lie on each other.  The colours are the commonest ones of the solid
  * paint that differ clearly; in a layer without alpha, paint is mixed with the paper, so that the directions of colours
- * from it are compared.  Where a stroke passes below another one, its paint is continued through the other one's, as far
- * as a morphological closing fills that.
+ * from it are compared.  Where a stroke passes below another one, its paint is continued through the other one's, as
+ * far as a morphological closing fills that.
  *
  * Cost: a pass over the component for each colour, and distance transforms of its box.
  *

@@ -375,8 +375,8 @@ gather_pixels (Components *s)
   return CELD_OK;
 }
 
-/* Is the selected component small, with another one close to it?  Then it may be a piece of that one: thin and faint ends
- * of strokes fall to pieces. */
+/* Is the selected component small, with another one close to it?  Then it may be a piece of that one: thin and faint
+ * ends of strokes fall to pieces. */
 static bool
 is_remnant (const Components *s)
 {

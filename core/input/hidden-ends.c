@@ -1,7 +1,7 @@
 /* Is the end of an arrow hidden by arrows of other colours?
  *
- * An arrow that is read by its colour ends where its paint does.  If other paint goes on in its direction, or nearly so,
- * its end may lie below that.  Its place is known all the same if another arrow ends there too.
+ * An arrow that is read by its colour ends where its paint does.  If other paint goes on in its direction, or nearly
+ * so, its end may lie below that.  Its place is known all the same if another arrow ends there too.
  *
  * Cost: two passes over the paint of the arrow.
  *

@@ -88,8 +88,9 @@ find_scattered (const CeldStrokes *strokes, const size_t *along, size_t *scatter
       scattered[strokes->overlap[i].stroke] = 0;
 }
 
-/* owner[k] becomes the label with most paint in part k, 0 without any or, if `fair`, with less than a fair share of it.  Soft strokes count only where they are at home,
- * or along the frame if they are scattered there. along[k]: frame pixels in part k. */
+/* owner[k] becomes the label with most paint in part k, 0 without any or, if `fair`, with less than a fair share of it.
+ * Soft strokes count only where they are at home, or along the frame if they are scattered there. along[k]: frame
+ * pixels in part k. */
 static CeldStatus
 find_owners (const CeldStrokes *strokes, bool all_count, bool fair, const size_t *along, bool *across,
              uint32_t *owner)
@@ -226,7 +227,8 @@ most_owned (const Frame *frame, size_t n_labels, bool across)
   uint32_t best = 0;
 
   for (uint32_t l = 1; l <= n_labels; l++)
-    if ((frame->across[l] || !across) && !frame->in_front[l] && frame->owned[l] && (!best || frame->owned[l] > frame->owned[best]))
+    if ((frame->across[l] || !across) && !frame->in_front[l] && frame->owned[l] &&
+        (!best || frame->owned[l] > frame->owned[best]))
       best = l;
   return best;
 }

@@ -34,8 +34,8 @@ CeldStatus celd_tip_pairs_next (CeldTipPairs *pairs, const bool *taken, const Ce
 
 /* ------------------------------------------------------------------ bridges.c */
 
-/* A pixel of paper that a bridge passes over, and the ink that it gets there: 0 if the bridge is certain, up to just not
- * paper if it is a mere guess. */
+/* A pixel of paper that a bridge passes over, and the ink that it gets there: 0 if the bridge is certain, up to just
+ * not paper if it is a mere guess. */
 typedef struct { int32_t x, y; float ink; } CeldBridgePixel;
 
 typedef struct { size_t first, n; double length; } CeldBridge;  /* its pixels, from end to end; its length in pixels */

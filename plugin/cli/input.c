@@ -1,4 +1,5 @@
-/* Reads a drawing and its layers, each from its own file, or all from the named layers of a PSD, ORA, KRA, EXR or TIFF file.
+/* Reads a drawing and its layers, each from its own file, or all from the named layers of a PSD, ORA, KRA, EXR or TIFF
+ * file.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */

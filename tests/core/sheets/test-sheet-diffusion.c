@@ -180,7 +180,8 @@ a_limb_goes_on_behind_a_post (void)
   scale = 1;
 }
 
-/* A panel on a thick line leaves a rim of the line beyond it, thinner than a cell: what is behind the panel is whole. */
+/* A panel on a thick line leaves a rim of the line beyond it, thinner than a cell: what is behind the panel is whole.
+ * */
 static double window (double x, double y) { return box (x, y, 20, 20, 140, 80); }
 static double panel  (double x, double y) { return box (x, y, 20.4, 20.4, 60, 79.6); }
 
