@@ -158,8 +158,8 @@ static const FileOption files[] = {
     "png, but ora for layers, gif for animations, glb for meshes)" },
   { "report", WITH_LAYERS | CLI_ORDER, 0, REPORT, MEMBER (report), "OUT",
     "write a report of regions, relations and problems, as JSON" },
-  { "review", CLI_PROPAGATE, 0, REPORT, MEMBER (review), "OUT",
-    "write which frames and regions to look at, as JSON, and beside it a picture of them" },
+  { "report", CLI_PROPAGATE, 0, REPORT, MEMBER (review), "OUT",
+    "write a report of the frames and regions to look at, as JSON, and beside it a picture of them" },
 };
 
 static char **

@@ -374,7 +374,7 @@ const CliCommand cli_propagate_command = {
   .input    = "FRAMES...",
   .summary  = "Carries scribbles, regions and levels from key frames to all frames of a clip.",
   .examples = "  celdepth propagate walk_###.png --key 0 --scribbles strokes.png --arrows arrows.png \\\n"
-              "      --labels-dir walk --depth-dir walk --review review.json\n"
+              "      --labels-dir walk --depth-dir walk --report review.json\n"
               "  celdepth propagate frames --key 1 --scribbles s1.png --key 24 --scribbles s24.png \\\n"
               "      --relations-file order.txt --labels-dir clip\n"
               "  celdepth shade --clip clip --shaded lit.png",

@@ -81,7 +81,7 @@ class Propagate(Test):
         return [os.stat(self.path(f'{folder}/labels_{frame:03d}.png')).st_mtime_ns for frame in range(FRAMES)]
 
     def test_labels_follow_the_parts(self):
-        self.celdepth(*self.words('--depth-dir', 'depth', '--review', 'review.json'))
+        self.celdepth(*self.words('--depth-dir', 'depth', '--report', 'review.json'))
         for frame in range(FRAMES):
             self.assertGreater(self.share(frame), 0.99, frame)
         with open(self.path('review.json'), encoding='utf-8') as file:
@@ -185,7 +185,7 @@ class Propagate(Test):
     def test_a_stranger_is_to_be_reviewed(self):
         Image.fromarray(np.where(np.add.outer(np.arange(SIDE), np.arange(SIDE)) % 37 < 2, 0, 255)
                         .astype(np.uint8)).save(self.path('walk_003.png'))
-        said = self.celdepth(*self.words('--review', 'review.json'))
+        said = self.celdepth(*self.words('--report', 'review.json'))
         with open(self.path('review.json'), encoding='utf-8') as file:
             review = {frame['frame']: frame['review'] for frame in json.load(file)['frames']}
         self.assertTrue(review[3] and not review[2])
@@ -204,16 +204,16 @@ class Propagate(Test):
             true = regions(frame)
             true[true == BALL] = PAGE
             Image.fromarray((255 * paper(true)).astype(np.uint8)).save(self.path(f'walk_{frame:03d}.png'))
-        self.celdepth(*self.words('--review', 'review.json'))
+        self.celdepth(*self.words('--report', 'review.json'))
         named = self.named('review.json')
         self.assertEqual([(colours - {NAMES[PAGE]}, listed) for colours, listed in named],
                          [(set(), False)] * 2 + [({NAMES[BALL]}, True)] * (FRAMES - 2))
 
     def test_a_review_of_finished_frames(self):
         """It is that of a run from the beginning, and frames are not made anew for a run without."""
-        self.celdepth(*self.words('--review', 'one.json', folder='one'))
+        self.celdepth(*self.words('--report', 'one.json', folder='one'))
         self.celdepth(*self.words(folder='two'))
-        self.celdepth(*self.words('--review', 'two.json', folder='two'))
+        self.celdepth(*self.words('--report', 'two.json', folder='two'))
         self.assertEqual(self.named('one.json'), self.named('two.json'))
         one, two = self.contents('one'), self.contents('two')
         self.assertEqual({k: v for k, v in one.items() if k != 'clip.json'},

@@ -20,7 +20,8 @@ STEPS = ('popup', 'segment', 'order', 'expand', 'smooth', 'shade', 'enhance', 'e
 
 # Names that mean the same in every command, in words of the command's own.
 OWN_WORDS = {'output': 'what the command makes', 'frames': 'the number of pictures',
-             'scribbles': 'of the drawing, or of each key', 'arrows': 'of the drawing, or of each key'}
+             'scribbles': 'of the drawing, or of each key', 'arrows': 'of the drawing, or of each key',
+             'report': 'what was found, as JSON'}
 
 
 class Usage(Test):
