@@ -62,23 +62,35 @@ labels_before (const CliMotion *motion, const CeldHost *host, size_t frame, cons
   return good;
 }
 
-/* How sure each label is: what the better of both sides says of it, times the share of its pixels that it has there. */
+/* How sure each label is: what the better of both sides says of it, times the share of its pixels that it has there; and
+ * no more than the two agree, since one of them is wrong where they do not. */
 static double *
 sure_of_both (const CliMotion *motion, const Sides *sides, const CliFrameState kept[2], const CeldLabels *labels)
 {
-  typedef struct { size_t n, same[2]; } Count;
+  typedef struct { size_t n, same[2], both, either; } Count;
   Count  *count = g_new0 (Count, motion->palette.n + 1);
   double *sure = g_new0 (double, motion->palette.n + 1);
 
   for (size_t i = 0; i < (size_t) labels->width * (size_t) labels->height; i++)
     {
+      uint32_t first = sides->labels[0].data[i], second = sides->labels[1].data[i];
+
       count[labels->data[i]].n++;
-      for (int k = 0; k < 2; k++)
-        count[labels->data[i]].same[k] += sides->labels[k].data[i] == labels->data[i];
+      count[labels->data[i]].same[0] += first == labels->data[i];
+      count[labels->data[i]].same[1] += second == labels->data[i];
+      count[first].both += first == second;
+      count[first].either++;
+      count[second].either += first != second;
     }
   for (size_t l = 1; l <= motion->palette.n; l++)
-    for (int k = 0; k < 2; k++)
-      sure[l] = MAX (sure[l], kept[k].sure[l] * (count[l].n ? (double) count[l].same[k] / (double) count[l].n : 1));
+    {
+      const Count *c = &count[l];
+
+      for (int k = 0; k < 2; k++)
+        sure[l] = MAX (sure[l], kept[k].sure[l] * (c->n ? (double) c->same[k] / (double) c->n : 1));
+      if (c->either)
+        sure[l] = MIN (sure[l], (double) c->both / (double) c->either);
+    }
   g_free (count);
   return sure;
 }
