@@ -38,7 +38,7 @@ current (CliRun *run)
 
 /* ------------------------------------------------------------------ the bar */
 
-/* How long stages take, in relation to each other: seconds for a megapixel (measured, two cores, rounded).  Others take
+/* How long stages take, in relation to each other: rough seconds for a megapixel (estimated).  Others take
  * one second. */
 static const struct { const char *stage; double seconds; } lengths[] = {
   { "reading", 0.1 }, { "ink", 0.05 }, { "labels", 0.6 }, { "order", 0.1 },
