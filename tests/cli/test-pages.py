@@ -119,6 +119,7 @@ class Pages(Test):
         self.page('a-layers.ora')
         for words, naming in ((['a.ora', '--depth', 'depth.exr'], 'give --depth without a name'),
                               (['a.ora', '--depth=x/d.exr'], 'results are named after their pages'),
+                              (['a.ora', '--depth='], 'results are named after their pages'),
                               (['a.ora', '--depth=gif'], 'must end in'),
                               (['a.ora', '--scribbles', 'scribbles.png'], 'leave out options that name layers'),
                               (['a.ora', 'sub/a.ora'], 'results of the same name'),
