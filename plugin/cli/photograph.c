@@ -155,14 +155,14 @@ smooth (CeldPlane *picture)
     smooth_line (picture->data + x, picture->stride, picture->height);
 }
 
-/* The best separation by closings and openings of two sizes. */
+/* The best separation by closings and openings of two sizes, of which those are left out that no longer matter. */
 static double
 best_separation (const CeldPlane *picture, int r, CeldPlane *changed, float *work)
 {
   double best = 0;
 
-  for (int fine = 0; fine < 2 && best < ODD; fine++)
-    for (float sign = 1; sign >= -1; sign -= 2)
+  for (int fine = 0; fine < 2; fine++)
+    for (float sign = 1; sign >= -1 && best < ODD; sign -= 2)
       best = fmax (best, line_separation (picture, fine ? MAX (2 * r / 5, 2) : r, sign, changed, work));
   return best;
 }
