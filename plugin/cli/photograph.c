@@ -39,11 +39,11 @@ running_extreme (const float *from, size_t step, int n, int r, float sign, float
   for (int i = 0; i < padded; i++)
     value[i] = sign * from[(size_t) CLAMP (i - r, 0, n - 1) * step];
   for (int i = 0; i < padded; i++)
-    behind[i] = i % length ? fmaxf (behind[i - 1], value[i]) : value[i];
+    behind[i] = i % length ? MAX (behind[i - 1], value[i]) : value[i];
   for (int i = padded - 1; i >= 0; i--)
-    before[i] = (i + 1) % length ? fmaxf (before[i + 1], value[i]) : value[i];
+    before[i] = (i + 1) % length ? MAX (before[i + 1], value[i]) : value[i];
   for (int i = 0; i < n; i++)
-    to[(size_t) i * to_step] = sign * fmaxf (before[i], behind[i + 2 * r]);
+    to[(size_t) i * to_step] = sign * MAX (before[i], behind[i + 2 * r]);
 }
 
 /* The largest (sign 1) or least (-1) value of each square, in place. */
