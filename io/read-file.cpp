@@ -144,7 +144,7 @@ open_decoded (const std::string &path)
   file->input = OIIO::ImageInput::open (path, &wishes);
   if (!file->input)
     throw IoFailure ("it is damaged, or of a format that cannot be read. PNG, TIFF, EXR, PSD, ORA, KRA and JPEG can be "
-                     "read; save XCF as ORA or PSD. " + OIIO::geterror ());
+                     "read; save XCF as ORA or PSD.");
   for (int i = 0; file->input->seek_subimage (i, 0); i++)
     file->specs.push_back (file->input->spec (i, 0));
   file->input->geterror (); // discards the error of the search for a part after the last one
@@ -269,7 +269,7 @@ DecodedFile::decode_rows (size_t index, int y, int end, float *pixels)
 
   // For a truncated TIFF OpenImageIO keeps an error, but returns true.
   if (!good || input->has_error ())
-    throw IoFailure ("it is damaged or truncated (" + input->geterror () + ").");
+    throw IoFailure ("it is damaged or truncated.");
 }
 
 // Reads a part in strips; convert (from, to) makes `floats` numbers of each pixel on the canvas.
