@@ -178,7 +178,8 @@ run_layers (const CliOptions *options)
 bool
 cli_compositing_check (CliOptions *options)
 {
-  const char *wanted = options->compositing, *output = options->output ? options->output : options->composed;
+  const char *wanted = options->compositing;
+  const char *output = options->output ? options->output : options->composed ? options->composed : options->layers;
 
   if (wanted && strcmp (wanted, "encoded") && strcmp (wanted, "linear"))
     return cli_error ("--compositing must be encoded or linear, not '%s'.", wanted);

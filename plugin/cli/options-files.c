@@ -115,7 +115,7 @@ static const FileOption files[] = {
     "write the animation: .gif, or a folder of PNG files" },
   { "colours", COLOURED, 0, INPUT, MEMBER (colours), "PICTURE",
     "a coloured version of the drawing, used instead of it for light, shadows, layers, views, meshes and motion" },
-  { "compositing", CLI_LAYERS | CLI_COMPOSE | CLI_DEFORM, 0, HOW, MEMBER (compositing), "encoded|linear",
+  { "compositing", CLI_POPUP | CLI_LAYERS | CLI_COMPOSE | CLI_DEFORM, 0, HOW, MEMBER (compositing), "encoded|linear",
     "the colours in which layers will be composited: encoded (Krita) or linear light (GIMP 3) (default: encoded, but "
     "linear for .exr)" },
   { "output", CLI_LAYERS, CLI_LAYERS, STACK, MEMBER (output), "OUT",

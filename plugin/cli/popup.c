@@ -14,6 +14,10 @@ check (CliOptions *options)
     return cli_error ("--watch shows one page: leave out --output-dir.");
   if (options->output_dir && g_mkdir_with_parents (options->output_dir, 0777))
     return cli_error ("Cannot make the folder \"%s\": %s.", options->output_dir, g_strerror (errno));
+  if (options->compositing && !options->layers)
+    return cli_error ("--compositing is about --layers, which is missing.");
+  if (!cli_compositing_check (options))
+    return false;
   return options->settings.light_model != CELD_MODEL_MATCAP ||
          cli_error ("--light-model matcap needs a picture of a ball: use celdepth shade with --matcap.");
 }

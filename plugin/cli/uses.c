@@ -79,7 +79,7 @@ write_changed (const char *path, const char *stage, CeldSession *session, const 
 static bool
 write_layers (CeldSession *session, const CliOptions *options, const CeldColours *art, CliRun *run)
 {
-  bool        linear = cli_layers_are_linear (options->layers, NULL);
+  bool        linear = cli_layers_are_linear (options->layers, options->compositing);
   CeldLayers *layers = NULL;
   CeldColours copy = { 0 };
   bool        good = copy_art (art, &copy);

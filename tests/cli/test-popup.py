@@ -40,13 +40,17 @@ class OneRun(Test):
         self.celdepth('stereo', *INPUT, '--left', 'left-alone.png', '--right', 'right-alone.png', '--joined',
                       'joined-alone.png')
         self.same_layers(read_open_raster(self.path('page.ora'))[0], read_open_raster(self.path('alone.ora'))[0],
-                         1.01 / 255)
+                         1.01.01 / 255)
         for name in 'enhanced', 'left', 'right', 'joined':
             self.same(f'{name}.png', f'{name}-alone.png')
         self.celdepth('popup', *INPUT, '--encoding', 'rank', '--enhanced', 'enhanced-ranks.png', '--left',
                       'left-ranks.png')
         for name in 'enhanced', 'left':
             self.same(f'{name}-ranks.png', f'{name}.png')
+        self.celdepth('popup', *INPUT, '--layers', 'linear.ora', '--compositing', 'linear')
+        self.celdepth('layers', *INPUT, '--output', 'linear-alone.ora', '--compositing', 'linear')
+        self.same_layers(read_open_raster(self.path('linear.ora'))[0],
+                         read_open_raster(self.path('linear-alone.ora'))[0], 1.01 / 255)
         self.celdepth('popup', *INPUT, '--layers', 'linear.exr')
         self.celdepth('layers', *INPUT, '--output', 'alone.exr')
         self.same_layers(read_exr(self.path('linear.exr'), WIDTH, HEIGHT)[0],
@@ -78,6 +82,10 @@ class OneRun(Test):
         self.fails('popup', *INPUT, '--shaded', 'lit.png', '--colours', 'none.png', naming='"none.png"')
         self.assertIn('--layers page.jpg: the name must end in', self.celdepth('popup', *INPUT, '--layers', 'page.jpg',
                                                                               code=2))
+        for words, message in ((('--compositing', 'linear'), 'about --layers'),
+                               (('--compositing', 'candle', '--layers', 'a.ora'), 'encoded or linear'),
+                               (('--compositing', 'encoded', '--layers', 'a.exr'), 'linear light')):
+            self.assertIn(message, self.celdepth('popup', *INPUT, *words, code=2))
 
 
 if __name__ == '__main__':
