@@ -32,7 +32,7 @@ static const CeldProperty properties[] = {
     .help = "How far nearer parts block light from those behind them, as a fraction of the picture's diagonal" },
   { .name = "shadow-strength", .label = "Occlusion strength", .when = "result {occlusion}",
     .help = "The largest fraction of light that nearer parts block" },
-  { .name = "directx" }, { .name = "ink" }, { .name = "ink-threshold" },
+  { .name = "directx" }, { .name = "ink" }, { .name = "ink-threshold" }, { .name = "hold-gaps" },
   { 0 }
 };
 
@@ -45,6 +45,8 @@ static const CeldPad pads[] = {
   { "aux4", "Hints", "Paint beside lines: parts bend on a white side, do not bend on a black side, and bend on both "
                      "sides at grey", FALSE },
   { "aux5", "Matcap", "The picture of a lit ball, from which parts take their shading", CELD_PAD_SAMPLE },
+  { "aux6", "Drawing for segmentation", "The drawing with virtual contours for segmentation: shading goes on where "
+                                        "only this one has ink", FALSE },
   { NULL, NULL, NULL, FALSE }
 };
 
@@ -130,7 +132,7 @@ write_occlusion (CeldOp *op, const CeldPlane *levels)
 static gboolean
 render (CeldOp *op)
 {
-  CeldPlane   ink, levels, depth = { 0 };
+  CeldPlane   ink, levels, depth = { 0 }, borders = { 0 };
   CeldPaint   hints = { 0 };
   CeldVectors normals;
   gboolean    deep = celd_op_has_input (op, "aux3"), hinted = celd_op_has_input (op, "aux4");
@@ -142,9 +144,10 @@ render (CeldOp *op)
   return celd_op_read_ink (op, "aux", &ink) &&
          (!deep || celd_op_read_plane (op, "aux3", &depth)) &&
          (!hinted || celd_op_read_paint (op, "aux4", &hints)) &&
+         (!celd_op_has_input (op, "aux6") || celd_op_read_ink (op, "aux6", &borders)) &&
          celd_op_new_vectors (op, &normals) &&
-         celd_op_try (op, celd_normals_hinted (&ink, &levels, deep ? &depth : NULL, hinted ? &hints : NULL,
-                                               &op->settings, &op->host, &normals)) &&
+         celd_op_try (op, celd_normals_hinted (&ink, borders.data ? &borders : NULL, &levels, deep ? &depth : NULL,
+                                               hinted ? &hints : NULL, &op->settings, &op->host, &normals)) &&
          write_result (op, &ink, &levels, &normals);
 }
 

@@ -18,7 +18,7 @@ static const CeldProperty properties[] = {
   { .own = &unit_row },
   { .name = "relief-from" },
   { .name = "relief-bulge" }, { .name = "relief-depth" }, { .name = "ink" }, { .name = "ink-threshold" },
-  { .name = "tolerance" },
+  { .name = "hold-gaps" }, { .name = "tolerance" },
   { 0 }
 };
 
@@ -26,6 +26,8 @@ static const CeldPad pads[] = {
   { "input", "Levels", "Expanded depth levels from Depth Expand", TRUE },
   { "aux", "Drawing", "The line drawing", TRUE },
   { "aux2", "Smooth depth", "Smooth depth from Depth Smooth; by default it is computed from the levels", FALSE },
+  { "aux3", "Drawing for segmentation", "The drawing with virtual contours for segmentation: the surface goes on where "
+                                        "only this one has ink", FALSE },
   { NULL, NULL, NULL, FALSE }
 };
 
@@ -55,15 +57,16 @@ write_heights (CeldOp *op, const CeldRelief *relief)
 static gboolean
 render (CeldOp *op)
 {
-  CeldPlane  ink, levels, depth = { 0 };
+  CeldPlane  ink, levels, depth = { 0 }, borders = { 0 };
   CeldRelief relief = { 0 };
   gboolean   good;
 
   good = celd_op_read_ink (op, "aux", &ink) &&
          celd_op_read_plane (op, "input", &levels) &&
          (!celd_op_has_input (op, "aux2") || celd_op_read_plane (op, "aux2", &depth)) &&
-         celd_op_try (op, celd_relief (&ink, &levels, depth.data ? &depth : NULL, &op->settings, &op->host,
-                                       &relief)) &&
+         (!celd_op_has_input (op, "aux3") || celd_op_read_ink (op, "aux3", &borders)) &&
+         celd_op_try (op, celd_relief (&ink, borders.data ? &borders : NULL, &levels, depth.data ? &depth : NULL,
+                                       &op->settings, &op->host, &relief)) &&
          write_heights (op, &relief);
   celd_relief_clear (&relief);
   return good;

@@ -105,7 +105,7 @@ hints_step (const CeldHost *host, Results *r)
   all.creases = 1;
   all.bevel = 0.1f;
   all.frame_outline = true;
-  return celd_normals_hinted (&ink, &levels, &levels, &hints, &all, host, &normals);
+  return celd_normals_hinted (&ink, NULL, &levels, &levels, &hints, &all, host, &normals);
 }
 
 static CeldStatus
@@ -238,7 +238,7 @@ make_relief (const CeldSettings *how, const CeldHost *host, Results *r)
 {
   CeldPlane  ink = plane_of (&ink_pixels), levels = plane_of (&expanded_pixels);
   CeldRelief relief = { 0 };
-  CeldStatus status = celd_relief (&ink, &levels, NULL, how, host, &relief);
+  CeldStatus status = celd_relief (&ink, NULL, &levels, NULL, how, host, &relief);
 
   if (status == CELD_OK)
     memcpy (r->pixels->plane, relief.z, sizeof r->pixels->plane);
@@ -298,7 +298,7 @@ model_step (const CeldHost *host, Results *r)
   CeldStatus   status;
 
   solid.mesh_kind = CELD_MESH_SOLID;
-  status     = celd_model_of_levels (&ink, &levels, NULL, &colours, &solid, host, &model);
+  status     = celd_model_of_levels (&ink, NULL, &levels, NULL, &colours, &solid, host, &model);
   for (size_t k = 0; status == CELD_OK && k < model.n; k++)
     r->pixels->labels[k] = (uint32_t) model.part[k].mesh.triangles;
   celd_model_clear (&model);

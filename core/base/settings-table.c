@@ -262,10 +262,10 @@ static const CeldSettingInfo infos[] = {
     .usual = true, .stages = READ_BY (PREVIEW) | READ_BY (DEPTH) },
 
   { .name = "hold-gaps", .label = "Hold at gaps", SWITCH (hold_gaps),
-    .help = "Depth changes abruptly also where a contour between two levels is broken, for up to about seven stroke "
-            "widths. Wider openings, and blue virtual contours, stay smooth; without it every gap is smooth, as in the "
-            "paper",
-    .usual = true, .stages = READ_BY (PREVIEW) | READ_BY (DEPTH) | READ_BY (NODES) },
+    .help = "Depth changes abruptly, and shading ends, also where a contour between two levels is broken, for up to "
+            "about seven stroke widths. Wider openings, and blue virtual contours, stay smooth; without it every gap "
+            "is smooth, as in the paper",
+    .usual = true, .stages = READ_BY (PREVIEW) | READ_BY (DEPTH) | READ_BY (NORMALS) | READ_BY (NODES) },
 
   { .name = "tolerance", .label = "Tolerance", NUMBER (tolerance),
     .help = "The largest error of smooth depth, as a fraction of its range",

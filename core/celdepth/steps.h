@@ -242,12 +242,13 @@ CELD_API CeldStatus celd_depth_exact (const CeldPlane *ink, const CeldLabels *se
 CELD_API CeldStatus celd_normals (const CeldPlane *ink, const CeldPlane *levels, const CeldSettings *settings,
                                   const CeldHost *host, CeldVectors *normals);
 
-/* celd_normals with further input, which may be NULL.  Strokes inside a region bend the surface as settings->creases
- * says, with `depth` only on their nearer side.  Painted `hints` beside strokes and outlines take precedence: white
- * bends that side, black does not, grey bends both. */
-CELD_API CeldStatus celd_normals_hinted (const CeldPlane *ink, const CeldPlane *levels, const CeldPlane *depth,
-                                         const CeldPaint *hints, const CeldSettings *settings, const CeldHost *host,
-                                         CeldVectors *normals);
+/* celd_normals with further input, which may be NULL.  With settings->hold_gaps surfaces end at gaps in contours, too,
+ * but not at ink that is only in `borders`, as for celd_smooth.  Strokes inside a region bend the surface as
+ * settings->creases says, with `depth` only on their nearer side.  Painted `hints` beside strokes and outlines take
+ * precedence: white bends that side, black does not, grey bends both. */
+CELD_API CeldStatus celd_normals_hinted (const CeldPlane *ink, const CeldPlane *borders, const CeldPlane *levels,
+                                         const CeldPlane *depth, const CeldPaint *hints, const CeldSettings *settings,
+                                         const CeldHost *host, CeldVectors *normals);
 
 /* Lights normals as the settings say, in linear light: `tone` is a factor for art, 0 .. 2 and 1 where the surface faces
  * the viewer, and `gloss`, of highlights and rims, blends the product towards white, 0 .. 1.  Ink (`ink` may be NULL)
@@ -342,10 +343,11 @@ CELD_API CeldStatus celd_stereo_join (const CeldColours *left, const CeldColours
                                       CeldColours *joined);
 
 /* Makes a relief: each region is inflated by settings->bulge, placed at its depth, and moved forward where it would
- * intersect what is behind it.  The surface is cut at depth discontinuities only.  `depth` is smooth depth; NULL:
- * computed by celd_smooth.  Replaces `relief`. */
-CELD_API CeldStatus celd_relief (const CeldPlane *ink, const CeldPlane *levels, const CeldPlane *depth,
-                                 const CeldSettings *settings, const CeldHost *host, CeldRelief *relief);
+ * intersect what is behind it.  The surface is cut at depth discontinuities only, those of celd_smooth with
+ * `borders` (may be NULL).  `depth` is smooth depth; NULL: computed by celd_smooth.  Replaces `relief`. */
+CELD_API CeldStatus celd_relief (const CeldPlane *ink, const CeldPlane *borders, const CeldPlane *levels,
+                                 const CeldPlane *depth, const CeldSettings *settings, const CeldHost *host,
+                                 CeldRelief *relief);
 CELD_API void       celd_relief_clear (CeldRelief *relief);   /* accepts a zeroed one */
 
 /* Makes a mesh.  CELD_BAD_VALUE also if settings->most_vertices is too small for the cuts alone, or if heights are not
@@ -356,17 +358,19 @@ CELD_API CeldStatus celd_relief_mesh (const CeldRelief *relief, const CeldSettin
 CELD_API void       celd_relief_mesh_clear (CeldReliefMesh *mesh);         /* accepts a zeroed one */
 
 /* Makes a model of sheets: each region is inflated by settings->relief_bulge on its whole silhouette, and lies on those
- * behind it, in front of all that it hides.  Where regions meet without a line their surfaces join.  Meshes are open at
- * the back; with CELD_MESH_SOLID each is a closed body that stands in the plate, and bodies overlap.
- * `ownership` and `layers` are those of the sheets; `ink` is the ink for depth.  CELD_BAD_VALUE also if
- * settings->most_vertices is too small for the outlines alone.  Replaces `model`. */
+ * behind it, in front of all that it hides.  Where regions meet without a line their surfaces join, but
+ * not at gaps that hold depth in celd_smooth.  Meshes are open at the back; with CELD_MESH_SOLID each is a closed body
+ * that stands in the plate, and bodies overlap.
+ * `ownership` and `layers` are those of the sheets; `ink` is the ink for depth, and `borders` (may be NULL) is as for
+ * celd_smooth.  CELD_BAD_VALUE also if settings->most_vertices is too small for the outlines alone.  Replaces
+ * `model`. */
 CELD_API CeldStatus celd_model (const CeldSheets *sheets, const CeldOwnership *ownership, const CeldLayers *layers,
-                                const CeldPlane *ink, const CeldSettings *settings, const CeldHost *host,
-                                CeldModel *model);
+                                const CeldPlane *ink, const CeldPlane *borders, const CeldSettings *settings,
+                                const CeldHost *host, CeldModel *model);
 /* A model of levels, expanded or not, with the labels of celd_expand_levels; `regions` may be NULL. */
-CELD_API CeldStatus celd_model_of_levels (const CeldPlane *ink, const CeldPlane *levels, const CeldLabels *regions,
-                                          const CeldColours *art, const CeldSettings *settings, const CeldHost *host,
-                                          CeldModel *model);
+CELD_API CeldStatus celd_model_of_levels (const CeldPlane *ink, const CeldPlane *borders, const CeldPlane *levels,
+                                          const CeldLabels *regions, const CeldColours *art,
+                                          const CeldSettings *settings, const CeldHost *host, CeldModel *model);
 CELD_API void       celd_model_clear (CeldModel *model);      /* accepts a zeroed one */
 
 /* Embeds a drawing into a square lattice at rest [SDC09a] (section 3.4).  Without parts (NULL) what moves is all that

@@ -54,8 +54,8 @@ celd_edge_weight (const CeldDepthEdges *edges, const float *level, int x, int y,
 
 /* v_pq of all edges, for celd_lap_setup: in [0,1], 0 across a depth discontinuity and where the picture ends.  `level`,
  * east and south have the size of the ink. */
-CeldStatus celd_depth_weights (const CeldPlane *ink, const float *level, float threshold, const CeldHost *host,
-                               float *east, float *south);
+CeldStatus celd_depth_weights (const CeldDepthEdges *edges, const float *level, const CeldHost *host, float *east,
+                               float *south);
 
 /* Which pixels are connected to their right and lower neighbours: one bit each, in rows of `words` words. */
 typedef struct { int height; size_t words; uint64_t *east, *south; } CeldPixelLinks;
@@ -63,6 +63,13 @@ typedef struct { int height; size_t words; uint64_t *east, *south; } CeldPixelLi
 /* From weights as for celd_lap_setup: connected where they are above 0.  To be cleared even after a failure. */
 CeldStatus celd_pixel_links_new   (int width, int height, const float *east, const float *south, CeldPixelLinks *links);
 void       celd_pixel_links_clear (CeldPixelLinks *links);
+
+/* Whether pixel (x,y) is connected to its right neighbour, or `down` to its lower one. */
+static inline bool
+celd_are_linked (const CeldPixelLinks *links, int x, int y, bool down)
+{
+  return (down ? links->south : links->east)[(size_t) y * links->words + (size_t) x / 64] >> (x % 64) & 1;
+}
 
 /* Whether a path connects pixel (x,y) with its right neighbour (`down`: its lower one) within the square of 15 pixels
  * around it: then a cut between the two ends nearby, and separates nothing. */
@@ -78,6 +85,12 @@ bool       celd_has_detour (const CeldPixelLinks *links, int x, int y, bool down
  * within the radius, but that of `edges` is not, depth stays smooth.  cut of `edges` must be NULL. */
 CeldStatus celd_gaps_hold (const CeldDepthEdges *edges, const CeldPlane *borders, const float *level, double longest,
                            const CeldHost *host, uint8_t *cut);
+
+/* The edges of levels for a drawing with strokes of this width, with the threshold of the settings.  With
+ * settings->hold_gaps gaps are cut, too: `cut` is then allocated, and has to be freed even after a failure; else it is
+ * NULL.  `borders` is as for celd_gaps_hold. */
+CeldStatus celd_depth_edges (const CeldPlane *ink, const CeldPlane *borders, const float *level, int stroke,
+                             const CeldSettings *settings, const CeldHost *host, CeldDepthEdges *edges, uint8_t **cut);
 
 /* ------------------------------------------------------------------ levels: smooth.c */
 

@@ -3,8 +3,8 @@
  * The paper sets v_pq = I_p where levels differ.  With antialiased ink depth then leaks along whole contours, even more
  * after expansion, when the boundary runs along the edge of the ink.  So here v_pq is the least ink within half a
  * stroke width of p and q, and exactly 0 where that is full ink.  Then a closed contour is a discontinuity whether
- * levels are expanded or not, a nick no wider than the stroke does not open it at any resolution, and a gap or a
- * virtual contour gives a smooth transition.
+ * levels are expanded or not, a nick no wider than the stroke does not open it at any resolution, and a gap that does
+ * not hold depth (held-gaps.c) or a virtual contour gives a smooth transition.
  *
  * A line of about a pixel is full ink nowhere, where it lies between two rows of pixels: it is found by the ink across
  * it, which adds up to its width.
@@ -115,20 +115,19 @@ weigh_row (const CeldDepthEdges *b, const float *level, int n, int y, int right,
 }
 
 CeldStatus
-celd_depth_weights (const CeldPlane *ink, const float *level, float threshold, const CeldHost *host, float *east,
-                    float *south)
+celd_depth_weights (const CeldDepthEdges *b, const float *level, const CeldHost *host, float *east, float *south)
 {
-  CeldDepthEdges b = { ink, threshold, celd_edge_radius (celd_stroke_width (ink)), NULL };
-  size_t         w = (size_t) ink->width;
-  uint8_t       *differs = celd_alloc (w, 1);
-  CeldStatus     status = differs ? CELD_OK : CELD_NO_MEMORY;
+  const CeldPlane *ink = b->ink;
+  size_t           w = (size_t) ink->width;
+  uint8_t         *differs = celd_alloc (w, 1);
+  CeldStatus       status = differs ? CELD_OK : CELD_NO_MEMORY;
 
   for (int y = 0; y < ink->height && status == CELD_OK; y++, level += w, east += w, south += w)
     {
-      weigh_row (&b, level, ink->width - 1, y, 1, east, differs);
+      weigh_row (b, level, ink->width - 1, y, 1, east, differs);
       east[w - 1] = 0;
       if (y + 1 < ink->height)
-        weigh_row (&b, level, ink->width, y, 0, south, differs);
+        weigh_row (b, level, ink->width, y, 0, south, differs);
       else
         memset (south, 0, w * sizeof *south);
       if (y % 64 == 0)

@@ -169,3 +169,20 @@ celd_gaps_hold (const CeldDepthEdges *edges, const CeldPlane *borders, const flo
   celd_free (piece.item);
   return status;
 }
+
+CeldStatus
+celd_depth_edges (const CeldPlane *ink, const CeldPlane *borders, const float *level, int stroke,
+                  const CeldSettings *settings, const CeldHost *host, CeldDepthEdges *edges, uint8_t **cut)
+{
+  CeldStatus status = CELD_NO_MEMORY;
+
+  *cut   = NULL;
+  *edges = (CeldDepthEdges) { ink, settings->ink_threshold, celd_edge_radius (stroke), NULL };
+  if (!settings->hold_gaps)
+    return CELD_OK;
+  *cut = celd_alloc ((size_t) ink->width * (size_t) ink->height, sizeof **cut);
+  if (*cut)
+    status = celd_gaps_hold (edges, borders, level, (double) CELD_LONGEST_GAP * edges->radius, host, *cut);
+  edges->cut = *cut;
+  return status;
+}

@@ -71,6 +71,7 @@ typedef struct
   int                   stroke;       /* width of the drawing's strokes in pixels */
   uint32_t              page;         /* the label of the background; 0: there is none, or nothing else */
   CeldDepthEdges        edges;
+  uint8_t              *cut;          /* of the edges */
   float                *level;
   float                *east, *south; /* weights; 0 where the surface is cut */
   CeldCrease           *crease;
@@ -142,7 +143,8 @@ CeldStatus celd_lumo_bevel (CeldLumo *lumo, const CeldHost *host);
 
 /* normals.c: the step, for callers that have the ownership of the levels and its sheets.  `depth` and `hints` may be
  * NULL. */
-CeldStatus celd_normals_of_sheets (const CeldPlane *ink, const CeldPlane *levels, const CeldOwnership *own,
+CeldStatus celd_normals_of_sheets (const CeldPlane *ink, const CeldPlane *borders, const CeldPlane *levels,
+                                   const CeldOwnership *own,
                                    const CeldSheets *sheets, const CeldPlane *depth, const CeldPaint *hints,
                                    const CeldSettings *settings, const CeldHost *host, CeldVectors *normals);
 

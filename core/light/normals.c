@@ -6,7 +6,7 @@
  *
  * That holds on whole sheets: what something nearer hides of a part is as round as what is seen of it.
  *
- *   1. weights: where levels and ink cut the surface (depth/discontinuities.c)
+ *   1. weights: where levels, with ink or at a gap in it, cut the surface (depth/discontinuities.c, held-gaps.c)
  *   2. strokes inside a region, where they bend it (lumo-creases.c)
  *   3. bodies: surfaces of seen and hidden pixels (lumo-bodies.c)
  *   4. of each body, what its outline constrains the normal to (lumo-outlines.c), and normals in between (lumo-solve.c)
@@ -22,10 +22,12 @@
 /* ------------------------------------------------------------------ weights */
 
 static CeldStatus
-weigh (CeldLumo *l, const CeldPlane *levels, const CeldHost *host)
+weigh (CeldLumo *l, const CeldPlane *borders, const CeldPlane *levels, const CeldHost *host)
 {
-  float  threshold = l->settings->ink_threshold;
-  size_t n = (size_t) l->width * (size_t) l->height;
+  CeldHostPart part[2];
+  CeldHost     holding = celd_host_part (&part[0], host, 0, 0.5), weighing = celd_host_part (&part[1], host, 0.5, 1);
+  size_t       n = (size_t) l->width * (size_t) l->height;
+  CeldStatus   status;
 
   l->level = celd_alloc (n, sizeof *l->level);
   l->east  = celd_alloc (n, sizeof *l->east);
@@ -33,9 +35,9 @@ weigh (CeldLumo *l, const CeldPlane *levels, const CeldHost *host)
   if (!l->level || !l->east || !l->south)
     return CELD_NO_MEMORY;
   l->stroke = celd_stroke_width (l->ink);
-  l->edges  = (CeldDepthEdges) { l->ink, threshold, celd_edge_radius (l->stroke), NULL };
   celd_depth_levels (levels, l->level);
-  return celd_depth_weights (l->ink, l->level, threshold, host, l->east, l->south);
+  status = celd_depth_edges (l->ink, borders, l->level, l->stroke, l->settings, &holding, &l->edges, &l->cut);
+  return status == CELD_OK ? celd_depth_weights (&l->edges, l->level, &weighing, l->east, l->south) : status;
 }
 
 /* ------------------------------------------------------------------ the step */
@@ -75,6 +77,7 @@ lumo_clear (CeldLumo *l)
   celd_lumo_bodies_clear (&l->bodies);
   celd_pixel_links_clear (&l->links);
   celd_free (l->level);
+  celd_free (l->cut);
   celd_free (l->east);
   celd_free (l->south);
   celd_free (l->crease);
@@ -93,9 +96,10 @@ page_of (const CeldSheets *sheets)
 }
 
 CeldStatus
-celd_normals_of_sheets (const CeldPlane *ink, const CeldPlane *levels, const CeldOwnership *own,
-                        const CeldSheets *sheets, const CeldPlane *depth, const CeldPaint *hints,
-                        const CeldSettings *settings, const CeldHost *host, CeldVectors *normals)
+celd_normals_of_sheets (const CeldPlane *ink, const CeldPlane *borders, const CeldPlane *levels,
+                        const CeldOwnership *own, const CeldSheets *sheets, const CeldPlane *depth,
+                        const CeldPaint *hints, const CeldSettings *settings, const CeldHost *host,
+                        CeldVectors *normals)
 {
   CeldLumo     l = { .ink = ink, .own = own, .sheets = sheets, .depth = depth, .hints = hints, .settings = settings,
                      .width = ink->width, .height = ink->height, .page = page_of (sheets) };
@@ -103,7 +107,7 @@ celd_normals_of_sheets (const CeldPlane *ink, const CeldPlane *levels, const Cel
   CeldHost     weighing = celd_host_part (&part[0], host, 0, 0.1), cutting = celd_host_part (&part[1], host, 0.1, 0.2);
   CeldHost     joining = celd_host_part (&part[2], host, 0.2, 0.3), solving = celd_host_part (&part[3], host, 0.3, 0.9);
   CeldHost     bevelling = celd_host_part (&part[4], host, 0.9, 1);
-  CeldStatus   status = weigh (&l, levels, &weighing);
+  CeldStatus   status = weigh (&l, borders, levels, &weighing);
 
   if (status == CELD_OK)
     status = celd_lumo_creases (&l, &cutting);
@@ -120,10 +124,11 @@ celd_normals_of_sheets (const CeldPlane *ink, const CeldPlane *levels, const Cel
 }
 
 CeldStatus
-celd_normals_hinted (const CeldPlane *ink, const CeldPlane *levels, const CeldPlane *depth, const CeldPaint *hints,
-                     const CeldSettings *settings, const CeldHost *host, CeldVectors *normals)
+celd_normals_hinted (const CeldPlane *ink, const CeldPlane *borders, const CeldPlane *levels, const CeldPlane *depth,
+                     const CeldPaint *hints, const CeldSettings *settings, const CeldHost *host, CeldVectors *normals)
 {
   if (!CELD_SAME_SIZE (ink, levels) || !CELD_SAME_SIZE (ink, normals) ||
+      (borders && !is_view (borders->data, borders->width, borders->height, ink)) ||
       (depth && !is_view (depth->data, depth->width, depth->height, ink)) ||
       (hints && !is_view (hints->data, hints->width, hints->height, ink)))
     return CELD_BAD_SIZE;
@@ -139,7 +144,8 @@ celd_normals_hinted (const CeldPlane *ink, const CeldPlane *levels, const CeldPl
   if (status == CELD_OK)
     status = celd_level_sheets (&made, ink, settings, &first, &sheets);
   if (status == CELD_OK)
-    status = celd_normals_of_sheets (ink, levels, &made.own, sheets, depth, hints, settings, &second, normals);
+    status = celd_normals_of_sheets (ink, borders, levels, &made.own, sheets, depth, hints, settings, &second,
+                                     normals);
   celd_sheets_free (sheets);
   celd_level_ownership_clear (&made);
   return status;
@@ -149,5 +155,5 @@ CeldStatus
 celd_normals (const CeldPlane *ink, const CeldPlane *levels, const CeldSettings *settings, const CeldHost *host,
               CeldVectors *normals)
 {
-  return celd_normals_hinted (ink, levels, NULL, NULL, settings, host, normals);
+  return celd_normals_hinted (ink, NULL, levels, NULL, NULL, settings, host, normals);
 }

@@ -90,10 +90,11 @@ choose_meshes (const CeldParts *parts, const CeldAtlasPlace *place, const CeldSe
 
 CeldStatus
 celd_model (const CeldSheets *sheets, const CeldOwnership *own, const CeldLayers *layers, const CeldPlane *ink,
-            const CeldSettings *settings, const CeldHost *host, CeldModel *model)
+            const CeldPlane *borders, const CeldSettings *settings, const CeldHost *host, CeldModel *model)
 {
-  if (!CELD_SAME_SIZE (ink, &own->owner) || !CELD_SAME_SIZE (ink, &own->under) ||
-      !CELD_SAME_SIZE (ink, &own->coverage) || ink->width != layers->width || ink->height != layers->height ||
+  if ((borders && !CELD_SAME_SIZE (ink, borders)) || !CELD_SAME_SIZE (ink, &own->owner) ||
+      !CELD_SAME_SIZE (ink, &own->under) || !CELD_SAME_SIZE (ink, &own->coverage) ||
+      ink->width != layers->width || ink->height != layers->height ||
       ink->width != sheets->width || ink->height != sheets->height)
     return CELD_BAD_SIZE;
   if (celd_settings_check (settings) != CELD_OK || layers->n != sheets->n)
@@ -106,7 +107,7 @@ celd_model (const CeldSheets *sheets, const CeldOwnership *own, const CeldLayers
   CeldHost        shaping = celd_host_part (&share[0], host, 0, 0.5);
   CeldHost        meshing = celd_host_part (&share[1], host, 0.5, 0.8);
   CeldHost        painting = celd_host_part (&share[2], host, 0.8, 1);
-  CeldStatus      status = made.part && place ? celd_parts_new (sheets, own, ink, settings, &shaping, &parts)
+  CeldStatus      status = made.part && place ? celd_parts_new (sheets, own, ink, borders, settings, &shaping, &parts)
                                               : CELD_NO_MEMORY;
 
   if (status == CELD_OK)
@@ -128,8 +129,9 @@ celd_model (const CeldSheets *sheets, const CeldOwnership *own, const CeldLayers
 }
 
 CeldStatus
-celd_model_of_levels (const CeldPlane *ink, const CeldPlane *levels, const CeldLabels *regions, const CeldColours *art,
-                      const CeldSettings *settings, const CeldHost *host, CeldModel *model)
+celd_model_of_levels (const CeldPlane *ink, const CeldPlane *borders, const CeldPlane *levels,
+                      const CeldLabels *regions, const CeldColours *art, const CeldSettings *settings,
+                      const CeldHost *host, CeldModel *model)
 {
   CeldLevelOwnership made;
   CeldSheets        *sheets = NULL;
@@ -149,7 +151,7 @@ celd_model_of_levels (const CeldPlane *ink, const CeldPlane *levels, const CeldL
   if (status == CELD_OK)
     status = celd_layers_cut (ink, &made.own, made.order, made.n, art, sheets, CELD_STORE_FLOAT, &cutting, &layers);
   if (status == CELD_OK)
-    status = celd_model (sheets, &made.own, layers, ink, settings, &rest, model);
+    status = celd_model (sheets, &made.own, layers, ink, borders, settings, &rest, model);
   celd_layers_free (layers);
   celd_sheets_free (sheets);
   celd_level_ownership_clear (&made);

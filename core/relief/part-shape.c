@@ -131,6 +131,16 @@ is_paper (const CeldPlane *ink, float threshold, int x, int y)
   return true;
 }
 
+/* Whether depth is not cut between two neighbouring pixels of the picture, or only near the end of a cut. */
+static bool
+is_joined (const CeldParts *parts, int x, int y, int to_x, int to_y)
+{
+  int left = x < to_x ? x : to_x, top = y < to_y ? y : to_y;
+
+  return celd_are_linked (&parts->links, left, top, x == to_x) ||
+         celd_has_detour (&parts->links, left, top, x == to_x);
+}
+
 /* Does the surface of part k go on from pixel (x,y) of the picture to one where the part is not? */
 static bool
 goes_on (const CeldParts *parts, size_t k, float threshold, int x, int y, int to_x, int to_y)
@@ -141,7 +151,8 @@ goes_on (const CeldParts *parts, size_t k, float threshold, int x, int y, int to
     return true;
   other = celd_part_seen (parts, to_x, to_y);
   return celd_part_seen (parts, x, y) == k && other != k && !parts->sheets->item[other].page &&
-         is_paper (parts->ink, threshold, x, y) && is_paper (parts->ink, threshold, to_x, to_y);
+         is_paper (parts->ink, threshold, x, y) && is_paper (parts->ink, threshold, to_x, to_y) &&
+         is_joined (parts, x, y, to_x, to_y);
 }
 
 static void

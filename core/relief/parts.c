@@ -74,6 +74,38 @@ make_part (const CeldParts *parts, size_t k, int stroke, const CeldSettings *set
   return status;
 }
 
+/* ------------------------------------------------------------------ cuts */
+
+/* Finds where depth is cut between the levels of the parts that are seen. */
+static CeldStatus
+find_cuts (const CeldPlane *borders, int stroke, const CeldSettings *settings, const CeldHost *host,
+           CeldParts *parts)
+{
+  size_t         n = (size_t) parts->width * (size_t) parts->height;
+  float         *level = celd_alloc (n, sizeof *level), *east = celd_alloc (n, sizeof *east);
+  float         *south = celd_alloc (n, sizeof *south), *next = level;
+  uint8_t       *cut = NULL;
+  CeldHostPart   share[2];
+  CeldHost       holding = celd_host_part (&share[0], host, 0, 0.5), rest = celd_host_part (&share[1], host, 0.5, 1);
+  CeldDepthEdges edges;
+  CeldStatus     status = level && east && south ? CELD_OK : CELD_NO_MEMORY;
+
+  for (int y = 0; y < parts->height && status == CELD_OK; y++)
+    for (int x = 0; x < parts->width; x++)
+      *next++ = (float) parts->sheets->item[celd_part_seen (parts, x, y)].level;
+  if (status == CELD_OK)
+    status = celd_depth_edges (parts->ink, borders, level, stroke, settings, &holding, &edges, &cut);
+  if (status == CELD_OK)
+    status = celd_depth_weights (&edges, level, &rest, east, south);
+  if (status == CELD_OK)
+    status = celd_pixel_links_new (parts->width, parts->height, east, south, &parts->links);
+  celd_free (level);
+  celd_free (east);
+  celd_free (south);
+  celd_free (cut);
+  return status;
+}
+
 /* ------------------------------------------------------------------ hidden parts */
 
 /* Pushes what the parts in front of this one hide behind them; `ceiling` is the lowest of these. */
@@ -95,26 +127,30 @@ push_behind (const CeldParts *parts, CeldPart *part, float clearance, float *cei
 /* ------------------------------------------------------------------ */
 
 CeldStatus
-celd_parts_new (const CeldSheets *sheets, const CeldOwnership *own, const CeldPlane *ink, const CeldSettings *settings,
-                const CeldHost *host, CeldParts *parts)
+celd_parts_new (const CeldSheets *sheets, const CeldOwnership *own, const CeldPlane *ink, const CeldPlane *borders,
+                const CeldSettings *settings, const CeldHost *host, CeldParts *parts)
 {
-  size_t     pixels = (size_t) sheets->width * (size_t) sheets->height;
-  double     most = 1, rise;
-  int        stroke = celd_stroke_width (ink);
-  float     *ceiling = celd_alloc (pixels, sizeof *ceiling);
-  CeldBehind behind = { 0 };
-  CeldStatus status;
+  size_t       pixels = (size_t) sheets->width * (size_t) sheets->height;
+  double       most = 1, rise;
+  int          stroke = celd_stroke_width (ink);
+  float       *ceiling = celd_alloc (pixels, sizeof *ceiling);
+  CeldBehind   behind = { 0 };
+  CeldHostPart half[2];
+  CeldHost     cutting = celd_host_part (&half[0], host, 0, 0.1), making = celd_host_part (&half[1], host, 0.1, 1);
+  CeldStatus   status;
 
   *parts = (CeldParts) { .width = sheets->width, .height = sheets->height, .sheets = sheets, .own = own, .ink = ink };
   parts->item = celd_alloc0 (sheets->n, sizeof *parts->item);
   status = ceiling && parts->item ? behind_new (parts, &behind) : CELD_NO_MEMORY;
+  if (status == CELD_OK)
+    status = find_cuts (borders, stroke, settings, &cutting, parts);
   for (size_t k = 0; k < sheets->n; k++)
     most = fmax (most, sheets->item[k].level);
   rise = (double) settings->relief_depth * hypot (sheets->width, sheets->height) / most;
   for (; parts->n < sheets->n && status == CELD_OK; parts->n++)
     {
       CeldHostPart share;
-      CeldHost     turn = celd_host_part (&share, host, (double) parts->n / (double) sheets->n,
+      CeldHost     turn = celd_host_part (&share, &making, (double) parts->n / (double) sheets->n,
                                           (double) (parts->n + 1) / (double) sheets->n);
 
       status = make_part (parts, parts->n, stroke, settings, rise, &turn, &behind);
@@ -139,5 +175,6 @@ celd_parts_clear (CeldParts *parts)
       celd_free (parts->item[k].seat.z);
     }
   celd_free (parts->item);
+  celd_pixel_links_clear (&parts->links);
   *parts = (CeldParts) { .width = 0 };
 }

@@ -14,6 +14,7 @@
 #ifndef CELD_PARTS_H
 #define CELD_PARTS_H
 
+#include "depth/depth.h"
 #include "layers/layers.h"
 #include "relief/relief.h"
 
@@ -46,6 +47,7 @@ typedef struct
   const CeldSheets    *sheets;
   const CeldOwnership *own;
   const CeldPlane     *ink;
+  CeldPixelLinks       links;   /* between which pixels depth is not cut */
 } CeldParts;
 
 static inline size_t
@@ -104,8 +106,10 @@ float celd_part_seat_at (const CeldPart *part, double x, double y);
 
 /* ------------------------------------------------------------------ parts.c */
 
+/* `borders` is as for celd_gaps_hold. */
 CeldStatus celd_parts_new (const CeldSheets *sheets, const CeldOwnership *own, const CeldPlane *ink,
-                           const CeldSettings *settings, const CeldHost *host, CeldParts *parts);
+                           const CeldPlane *borders, const CeldSettings *settings, const CeldHost *host,
+                           CeldParts *parts);
 void       celd_parts_clear (CeldParts *parts);               /* accepts a partly built record */
 
 /* ------------------------------------------------------------------ part-outline.c */

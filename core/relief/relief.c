@@ -174,21 +174,21 @@ depth_scale (const CeldSurface *surface, const float *depth, const CeldSettings 
 
 /* Depth without padding: the given depth, or else smooth depth. */
 static CeldStatus
-read_depth (const CeldPlane *ink, const CeldPlane *levels, const CeldPlane *given, const CeldSettings *settings,
-            const CeldHost *host, float *depth)
+read_depth (const CeldPlane *ink, const CeldPlane *borders, const CeldPlane *levels, const CeldPlane *given,
+            const CeldSettings *settings, const CeldHost *host, float *depth)
 {
   CeldPlane made = { ink->width, ink->height, (size_t) ink->width, depth };
 
   if (!given)
-    return celd_smooth (ink, NULL, levels, NULL, settings, host, &made, NULL);
+    return celd_smooth (ink, borders, levels, NULL, settings, host, &made, NULL);
   celd_depth_levels (given, depth);
   return CELD_OK;
 }
 
 /* Computes the height above the outline, in pixels. */
 static CeldStatus
-make_round (const CeldSurface *surface, const CeldPlane *ink, const CeldPlane *levels, const CeldSettings *settings,
-            const CeldHost *host, ReliefPlanes *p)
+make_round (const CeldSurface *surface, const CeldPlane *ink, const CeldPlane *borders, const CeldPlane *levels,
+            const CeldSettings *settings, const CeldHost *host, ReliefPlanes *p)
 {
   size_t       n = (size_t) surface->width * (size_t) surface->height;
   CeldHostPart part[2];
@@ -201,7 +201,9 @@ make_round (const CeldSurface *surface, const CeldPlane *ink, const CeldPlane *l
 
       of_normals.bulge = settings->relief_bulge;
       p->normals = (CeldVectors) { ink->width, ink->height, (size_t) ink->width, celd_alloc (n, 3 * sizeof (float)) };
-      status     = p->normals.data ? celd_normals (ink, levels, &of_normals, &first, &p->normals) : CELD_NO_MEMORY;
+      status     = p->normals.data ? celd_normals_hinted (ink, borders, levels, NULL, NULL, &of_normals, &first,
+                                                          &p->normals)
+                                   : CELD_NO_MEMORY;
       if (status != CELD_OK)
         return status;
       return integrate (surface, &p->normals, (double) settings->tolerance, &second, p->z);
@@ -224,14 +226,14 @@ mark_cut (void *data, size_t near, size_t far, bool right)
 
 /* Fills in a relief whose planes are allocated. */
 static CeldStatus
-make_relief (const CeldSurface *surface, const CeldPlane *ink, const CeldPlane *levels, const CeldSettings *settings,
-             const CeldHost *host, ReliefPlanes *p, CeldRelief *relief)
+make_relief (const CeldSurface *surface, const CeldPlane *ink, const CeldPlane *borders, const CeldPlane *levels,
+             const CeldSettings *settings, const CeldHost *host, ReliefPlanes *p, CeldRelief *relief)
 {
   size_t       n = (size_t) surface->width * (size_t) surface->height;
   double       scale = depth_scale (surface, p->depth, settings);
   CeldHostPart part[2];
   CeldHost     rounding = celd_host_part (&part[0], host, 0, 0.4), ordering = celd_host_part (&part[1], host, 0.4, 1);
-  CeldStatus   status = make_round (surface, ink, levels, settings, &rounding, p);
+  CeldStatus   status = make_round (surface, ink, borders, levels, settings, &rounding, p);
 
   for (size_t i = 0; i < n; i++)
     {
@@ -263,10 +265,11 @@ relief_new (int width, int height, CeldRelief *relief)
 }
 
 CeldStatus
-celd_relief (const CeldPlane *ink, const CeldPlane *levels, const CeldPlane *depth, const CeldSettings *settings,
-             const CeldHost *host, CeldRelief *relief)
+celd_relief (const CeldPlane *ink, const CeldPlane *borders, const CeldPlane *levels, const CeldPlane *depth,
+             const CeldSettings *settings, const CeldHost *host, CeldRelief *relief)
 {
-  if (!CELD_SAME_SIZE (ink, levels) || (depth && !CELD_SAME_SIZE (ink, depth)))
+  if (!CELD_SAME_SIZE (ink, levels) || (depth && !CELD_SAME_SIZE (ink, depth)) ||
+      (borders && !CELD_SAME_SIZE (ink, borders)))
     return CELD_BAD_SIZE;
   if (celd_settings_check (settings) != CELD_OK)
     return CELD_BAD_VALUE;
@@ -282,11 +285,11 @@ celd_relief (const CeldPlane *ink, const CeldPlane *levels, const CeldPlane *dep
   CeldStatus   status = p.z && p.depth && p.shift ? relief_new (ink->width, ink->height, &made) : CELD_NO_MEMORY;
 
   if (status == CELD_OK)
-    status = read_depth (ink, levels, depth, settings, &smoothing, p.depth);
+    status = read_depth (ink, borders, levels, depth, settings, &smoothing, p.depth);
   if (status == CELD_OK)
-    status = celd_surface_new (ink, levels, settings->ink_threshold, &cutting, &surface);
+    status = celd_surface_new (ink, borders, levels, settings, &cutting, &surface);
   if (status == CELD_OK)
-    status = make_relief (&surface, ink, levels, settings, &making, &p, &made);
+    status = make_relief (&surface, ink, borders, levels, settings, &making, &p, &made);
   if (status == CELD_OK)
     {
       celd_relief_clear (relief);

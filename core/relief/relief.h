@@ -31,8 +31,9 @@ typedef struct
   uint8_t *flat;                /* does the pixel's region stay flat because it ends nowhere? */
 } CeldSurface;
 
-CeldStatus celd_surface_new (const CeldPlane *ink, const CeldPlane *levels, float threshold, const CeldHost *host,
-                             CeldSurface *surface);
+/* `borders` is as for celd_gaps_hold. */
+CeldStatus celd_surface_new (const CeldPlane *ink, const CeldPlane *borders, const CeldPlane *levels,
+                             const CeldSettings *settings, const CeldHost *host, CeldSurface *surface);
 void       celd_surface_clear (CeldSurface *surface);         /* accepts a partly built record */
 
 /* Calls body for each cut between two pixels, given by their indices, the nearer one first; `right` if they are in

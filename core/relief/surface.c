@@ -1,10 +1,10 @@
 /* A picture as a surface with cuts: the surface is cut at depth discontinuities, where the nearer side ends and the
  * farther side continues behind it.
  *
- * Discontinuities come from celd_depth_weights.  Where a virtual contour runs into the ink of another contour there are
- * such edges, too, but the surface continues round them; so an edge is cut only if there is no short path round it.  A
- * region that is only behind others and ends nowhere stays flat, and so does a connected surface without any cut: the
- * paper.
+ * Discontinuities come from celd_depth_weights; gaps in the ink hold, as for smooth depth.  Where a virtual contour
+ * runs into the ink of another contour there are such edges, too, but the surface continues round them; so an edge is
+ * cut only if there is no short path round it.  A region that is only behind others and ends nowhere stays flat, and so
+ * does a connected surface without any cut: the paper.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -75,6 +75,24 @@ regions_new (const CeldSurface *s, const CeldHost *host, Regions *r)
 }
 
 /* ------------------------------------------------------------------ */
+
+/* Makes the weights of depth. */
+static CeldStatus
+weigh (const CeldPlane *ink, const CeldPlane *borders, const CeldSettings *settings, const CeldHost *host,
+       CeldSurface *s)
+{
+  CeldHostPart   part[2];
+  CeldHost       holding = celd_host_part (&part[0], host, 0, 0.5), rest = celd_host_part (&part[1], host, 0.5, 1);
+  int            stroke = celd_stroke_width (ink);
+  CeldDepthEdges edges;
+  uint8_t       *cut;
+  CeldStatus     status = celd_depth_edges (ink, borders, s->level, stroke, settings, &holding, &edges, &cut);
+
+  if (status == CELD_OK)
+    status = celd_depth_weights (&edges, s->level, &rest, s->east, s->south);
+  celd_free (cut);
+  return status;
+}
 
 /* Sets positive weights to 1. */
 static void
@@ -168,14 +186,15 @@ find_flat (CeldSurface *s, Regions *r)
 }
 
 CeldStatus
-celd_surface_new (const CeldPlane *ink, const CeldPlane *levels, float threshold, const CeldHost *host, CeldSurface *s)
+celd_surface_new (const CeldPlane *ink, const CeldPlane *borders, const CeldPlane *levels,
+                  const CeldSettings *settings, const CeldHost *host, CeldSurface *s)
 {
   size_t       n = (size_t) ink->width * (size_t) ink->height;
   Regions      r = { .n = 0 };
   CeldHostPart part[3];
   CeldHost     weighing = celd_host_part (&part[0], host, 0, 0.5), finding = celd_host_part (&part[1], host, 0.5, 0.8);
   CeldHost     joining = celd_host_part (&part[2], host, 0.8, 1);
-  CeldStatus   status = CELD_OK;
+  CeldStatus   status;
 
   *s = (CeldSurface) { .width = ink->width, .height = ink->height };
   s->level = celd_alloc (n, sizeof *s->level);
@@ -185,7 +204,7 @@ celd_surface_new (const CeldPlane *ink, const CeldPlane *levels, float threshold
   if (!s->level || !s->east || !s->south || !s->flat)
     return CELD_NO_MEMORY;
   celd_depth_levels (levels, s->level);
-  status = celd_depth_weights (ink, s->level, threshold, &weighing, s->east, s->south);
+  status = weigh (ink, borders, settings, &weighing, s);
   binarize (s->east, n);
   binarize (s->south, n);
   if (status == CELD_OK)

@@ -210,11 +210,17 @@ celd_session_model (CeldSession *s, const CeldColours *art, const CeldHost *host
   CeldHostPart part[2];
   CeldHost     cutting = celd_host_part (&part[0], host, 0, 0.5), making = celd_host_part (&part[1], host, 0.5, 1);
   CeldLayers  *layers = NULL;
+  CeldPlane    drawn = { 0 };
   CeldStatus   status = cut_layers (s, art, CELD_STORE_FLOAT, true, &cutting, &layers);
+  const CeldPlane *borders = NULL;
 
   if (status == CELD_OK)
-    status = celd_model (s->sheets, &s->ownership, layers, celd_session_split_ink (s), &s->settings, &making, model);
+    status = celd_session_borders (s, &drawn, &borders);
+  if (status == CELD_OK)
+    status = celd_model (s->sheets, &s->ownership, layers, celd_session_split_ink (s), borders, &s->settings, &making,
+                         model);
   celd_layers_free (layers);
+  celd_free (drawn.data);
   return status;
 }
 
@@ -246,13 +252,17 @@ celd_session_relief (CeldSession *s, const CeldHost *host, CeldRelief *relief)
 {
   CeldHostPart part[2];
   CeldHost     first = celd_host_part (&part[0], host, 0, 0.6), second = celd_host_part (&part[1], host, 0.6, 1);
-  CeldPlane    levels, depth;
+  CeldPlane    levels, depth, drawn = { 0 };
   CeldStatus   status = celd_session_levels (s, &first, &levels, NULL);
+  const CeldPlane *borders = NULL;
 
   if (status == CELD_OK)
     status = celd_session_depth (s, &first, &depth, NULL);
   if (status == CELD_OK)
-    status = celd_relief (celd_session_split_ink (s), &levels, &depth, &s->settings, &second, relief);
+    status = celd_session_borders (s, &drawn, &borders);
+  if (status == CELD_OK)
+    status = celd_relief (celd_session_split_ink (s), borders, &levels, &depth, &s->settings, &second, relief);
+  celd_free (drawn.data);
   return status;
 }
 

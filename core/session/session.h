@@ -139,6 +139,11 @@ const CeldLabels *celd_session_current_labels (const CeldSession *session);
 const CeldPlane *celd_session_depth_ink (const CeldSession *session);
 const CeldPlane *celd_session_split_ink (const CeldSession *session);
 
+/* stage-depth.c: the ink of boundaries across which depth stays smooth, among others: that for segmentation, and the
+ * boundaries of splits.  `drawn` is an own copy if there are any, and has to be freed; NULL: there is no such
+ * boundary. */
+CeldStatus celd_session_borders (const CeldSession *session, CeldPlane *drawn, const CeldPlane **borders);
+
 /* Whether the current labels would stay as they are with this relation after all others. */
 bool celd_session_relation_keeps_labels (const CeldSession *session, const CeldRelation *relation);
 

@@ -170,10 +170,8 @@ smooth (CeldSession *s, CeldStage stage, const Anchors *anchors, CeldSmoothInput
   return status;
 }
 
-/* The ink of boundaries across which depth stays smooth, among others: that for segmentation, and the boundaries of
- * splits.  `drawn` is an own copy if there are any, and has to be freed; NULL: there is no such boundary. */
-static CeldStatus
-make_borders (const CeldSession *s, CeldPlane *drawn, const CeldPlane **borders)
+CeldStatus
+celd_session_borders (const CeldSession *s, CeldPlane *drawn, const CeldPlane **borders)
 {
   const CeldPlane *ink = &s->ink;
   CeldStatus       status;
@@ -204,7 +202,7 @@ celd_make_depth (CeldSession *s, const CeldHost *host)
   CeldSmoothInput smoothing = { .ink = celd_session_split_ink (s), .levels = &s->levels, .settings = &s->settings,
                               .speck = CELD_SPECK };
   CeldPlane       drawn = { 0 };
-  CeldStatus      status = make_borders (s, &drawn, &smoothing.borders);
+  CeldStatus      status = celd_session_borders (s, &drawn, &smoothing.borders);
 
   if (status == CELD_OK)
     status = celd_mask_new (s->levels.width, s->levels.height, &anchors.mask);
@@ -257,13 +255,13 @@ reduce_ink (const CeldPlane *ink, CeldPlane *blocks)
   return status;
 }
 
-/* The borders of make_borders by blocks; data NULL: there are none. */
+/* The borders of celd_session_borders by blocks; data NULL: there are none. */
 static CeldStatus
 reduce_borders (const CeldSession *s, CeldPlane *blocks)
 {
   CeldPlane        drawn = { 0 };
   const CeldPlane *borders;
-  CeldStatus       status = make_borders (s, &drawn, &borders);
+  CeldStatus       status = celd_session_borders (s, &drawn, &borders);
 
   if (status == CELD_OK && borders)
     status = reduce_ink (borders, blocks);
@@ -325,13 +323,16 @@ celd_make_preview (CeldSession *s, const CeldHost *host)
 CeldStatus
 celd_make_normals (CeldSession *s, const CeldHost *host)
 {
-  int         w = s->levels.width, h = s->levels.height;
-  CeldVectors normals = { w, h, (size_t) w, celd_alloc ((size_t) w * (size_t) h, 3 * sizeof (float)) };
-  CeldStatus  status = CELD_NO_MEMORY;
+  int              w = s->levels.width, h = s->levels.height;
+  CeldVectors      normals = { w, h, (size_t) w, celd_alloc ((size_t) w * (size_t) h, 3 * sizeof (float)) };
+  CeldPlane        drawn = { 0 };
+  const CeldPlane *borders;
+  CeldStatus       status = normals.data ? celd_session_borders (s, &drawn, &borders) : CELD_NO_MEMORY;
 
-  if (normals.data)
-    status = celd_normals_of_sheets (celd_session_split_ink (s), &s->levels, &s->ownership, s->sheets, NULL, NULL,
-                                     &s->settings, host, &normals);
+  if (status == CELD_OK)
+    status = celd_normals_of_sheets (celd_session_split_ink (s), borders, &s->levels, &s->ownership, s->sheets, NULL,
+                                     NULL, &s->settings, host, &normals);
+  celd_free (drawn.data);
   if (status != CELD_OK)
     {
       celd_free (normals.data);

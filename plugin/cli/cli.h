@@ -317,13 +317,15 @@ int cli_run_route (const CliOptions *options, const char *command, bool whole_ro
 /* A run over levels, with the ink of their drawing. */
 typedef struct
 {
-  CeldPlane levels, ink;
+  CeldPlane levels, ink, borders; /* borders: see cli_step_borders */
   CliLayers layers;
   CliRun    run;
 } CliStep;
 
 /* Reads levels and drawing, and makes ink.  The caller calls cli_step_end in either case. */
 bool cli_step_begin (const CliOptions *options, CliStep *step);
+/* The ink for segmentation, which tells where blue contours keep depth smooth; NULL without contours. */
+const CeldPlane *cli_step_borders (const CliStep *step);
 /* The exit code. */
 int  cli_step_end   (CliStep *step, bool good);
 

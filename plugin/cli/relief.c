@@ -91,8 +91,9 @@ relief_of_levels (const CliOptions *options, CliStep *step)
   if (good)
     {
       cli_run_stage (&step->run, "relief");
-      good = cli_run_finish (&step->run, celd_relief (&step->ink, &step->levels, depth.data ? &depth : NULL,
-                                                      &options->settings, &step->run.host, &relief)) &&
+      good = cli_run_finish (&step->run, celd_relief (&step->ink, cli_step_borders (step), &step->levels,
+                                                      depth.data ? &depth : NULL, &options->settings,
+                                                      &step->run.host, &relief)) &&
              write_relief (options, &relief, &step->layers, &step->run);
     }
   g_free (depth.data);
@@ -120,7 +121,8 @@ model_of_levels (const CliOptions *options, CliStep *step)
       if (known)
         cli_levels_flatten (known, &step->levels);
       cli_run_stage (&step->run, "mesh");
-      status = celd_model_of_levels (&step->ink, &step->levels, known, &art, &settings, &step->run.host, &model);
+      status = celd_model_of_levels (&step->ink, cli_step_borders (step), &step->levels, known, &art, &settings,
+                                     &step->run.host, &model);
       good = cli_mesh_finish (options, &step->run, status, model.error) &&
              cli_model_write (options->mesh, &model, cli_model_names_of_regions (&step->levels, known, &palette));
     }
@@ -265,7 +267,7 @@ const CliCommand cli_relief_command = {
               "  celdepth relief page.psd --mesh page.stl --mesh-size 80\n"
               "  celdepth relief levels.npy --drawing bee.png --regions flat.png --colours art.png --mesh bee.glb\n"
               "  celdepth relief levels.npy --drawing bee.png --depth depth.npy --height height.exr",
-  .settings = CLI_SETTINGS_OF_LABELS " on-cycle suggest expansion tolerance relief-bulge relief-from "
+  .settings = CLI_SETTINGS_OF_LABELS " on-cycle suggest expansion hold-gaps tolerance relief-bulge relief-from "
               "relief-depth mesh-kind mesh-size mesh-plate mesh-error most-vertices",
   .output   = "mesh",
   .check    = check,

@@ -14,7 +14,7 @@ typedef struct
   CeldPaint   hints;
   CeldColours art, matcap;
   CeldVectors normals;
-  CeldPlane   ink, shading, gloss, occlusion;
+  CeldPlane   ink, borders, shading, gloss, occlusion;
   CeldColours tone, maps[CLI_MAPS];
 } Shade;
 
@@ -119,6 +119,7 @@ new_results (const CliOptions *options, Shade *s)
   bool lit = options->shaded || options->tone || options->rim || (options->shading && !grey);
 
   s->normals = (CeldVectors) { w, h, (size_t) w, g_try_new (float, 3 * (gsize) w * (gsize) h) };
+  good       = good && (!s->layers.contours.data || cli_plane_new (w, h, &s->borders));
   good       = good && cli_check (s->normals.data ? CELD_OK : CELD_NO_MEMORY);
   good       = good && (!grey || cli_plane_new (w, h, &s->shading));
   good       = good && (!lit || (cli_colours_new (w, h, &s->tone) && cli_plane_new (w, h, &s->gloss)));
@@ -132,7 +133,7 @@ static void
 clear (Shade *s)
 {
   float *all[] = { s->levels.data, s->depth.data, s->art.data, s->matcap.data, s->normals.data, s->ink.data,
-                   s->shading.data, s->gloss.data, s->occlusion.data, s->tone.data };
+                   s->borders.data, s->shading.data, s->gloss.data, s->occlusion.data, s->tone.data };
 
   for (size_t i = 0; i < G_N_ELEMENTS (all); i++)
     g_free (all[i]);
@@ -168,6 +169,7 @@ crop (const Shade *whole, const CeldRect *cell)
   CROP (&s.art, cell, 4);
   CROP (&s.normals, cell, 3);
   CROP (&s.ink, cell, 1);
+  CROP (&s.borders, cell, 1);
   CROP (&s.shading, cell, 1);
   CROP (&s.gloss, cell, 1);
   CROP (&s.occlusion, cell, 1);
@@ -185,7 +187,11 @@ make_ink (const CeldSettings *settings, const CeldHost *host, Shade *s)
 
   if (s->layers.contours.data)
     status = celd_contours_bake (drawing, &s->layers.contours, CELD_FOR_DEPTH, settings->ink, host, drawing);
-  return status == CELD_OK ? celd_ink (drawing, settings->ink, host, &s->ink) : status;
+  if (status == CELD_OK)
+    status = celd_ink (drawing, settings->ink, host, &s->ink);
+  if (status == CELD_OK && s->borders.data)
+    status = celd_contours_bake (drawing, &s->layers.contours, CELD_FOR_SEGMENTATION, settings->ink, host, drawing);
+  return status == CELD_OK && s->borders.data ? celd_ink (drawing, settings->ink, host, &s->borders) : status;
 }
 
 /* Fills the maps: normals as 0.5 + 0.5 n; occlusion; and the luma of the art, which engines use for highlights.  Each
@@ -238,8 +244,9 @@ shade_cell (const CliOptions *options, const CeldHost *host, Shade *s)
   CeldStatus          status = make_ink (settings, host, s);
 
   if (status == CELD_OK)
-    status = celd_normals_hinted (&s->ink, &s->levels, s->depth.data ? &s->depth : NULL,
-                                  s->hints.data ? &s->hints : NULL, settings, host, &s->normals);
+    status = celd_normals_hinted (&s->ink, s->borders.data ? &s->borders : NULL, &s->levels,
+                                  s->depth.data ? &s->depth : NULL, s->hints.data ? &s->hints : NULL, settings, host,
+                                  &s->normals);
   if (status == CELD_OK && s->shading.data)
     status = celd_shade (&s->normals, settings, &s->shading);
   if (status == CELD_OK && s->tone.data)
@@ -355,8 +362,8 @@ const CliCommand cli_shade_command = {
               "  celdepth shade levels.npy --drawing bee.png --colours colours.png --shaded bee-lit.png \\\n"
               "      --light-model toon --specular 0.4 --rim-light 0.3\n"
               "  celdepth shade levels.npy --drawing walk.png --maps walk.png --grid 8x1",
-  .settings = "ink ink-threshold bulge bevel creases frame-outline light-model toon-steps light-background light "
-              "light-azimuth light-elevation ambient light-x light-y light-height specular shininess rim-light "
+  .settings = "ink ink-threshold hold-gaps bulge bevel creases frame-outline light-model toon-steps light-background "
+              "light light-azimuth light-elevation ambient light-x light-y light-height specular shininess rim-light "
               "rim-power shadow-size shadow-strength",
   .output   = "shading",
   .check    = check,

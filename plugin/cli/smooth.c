@@ -25,31 +25,21 @@ read_anchors (const CliOptions *options, CliLayers *layers, CeldMask *anchors)
   return good && (anchors->data || cli_check (CELD_NO_MEMORY));
 }
 
-/* Makes the ink for segmentation, which tells where blue contours keep depth smooth; none without contours. */
-static bool
-make_borders (CliStep *step, const CliOptions *options, CeldPlane *borders)
-{
-  return !step->layers.contours.data ||
-         cli_make_ink (&step->layers, CELD_FOR_SEGMENTATION, options, &step->run, borders);
-}
-
 static int
 run_smooth (const CliOptions *options)
 {
   CliStep   step;
   CeldMask  anchors = { 0 };
-  CeldPlane borders = { 0 };
   CeldSolve solve = { 0 };
   bool      good = cli_step_begin (options, &step) &&
-                   (!options->scribbles || read_anchors (options, &step.layers, &anchors)) &&
-                   make_borders (&step, options, &borders);
+                   (!options->scribbles || read_anchors (options, &step.layers, &anchors));
 
   if (good)
     {
       float nearest = cli_nearest_level (&step.levels);
 
       cli_run_stage (&step.run, "depth");
-      good = cli_run_finish (&step.run, celd_smooth (&step.ink, borders.data ? &borders : NULL, &step.levels,
+      good = cli_run_finish (&step.run, celd_smooth (&step.ink, cli_step_borders (&step), &step.levels,
                                                      anchors.data ? &anchors : NULL, &options->settings,
                                                      &step.run.host, &step.levels, &solve)) &&
              cli_write_depth (options->depth, &step.levels, nearest);
@@ -61,7 +51,6 @@ run_smooth (const CliOptions *options)
       cli_say_problems (&(CeldProblems) { &problem, 1 }, NULL, NULL);
     }
   g_free (anchors.data);
-  g_free (borders.data);
   return cli_step_end (&step, good);
 }
 

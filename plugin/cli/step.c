@@ -41,7 +41,15 @@ cli_step_begin (const CliOptions *options, CliStep *step)
   step->layers.width  = step->levels.width;
   step->layers.height = step->levels.height;
   return cli_layers_read (options->drawing, options, CLI_CONTOURS, &step->layers) &&
-         cli_make_ink (&step->layers, CELD_FOR_DEPTH, options, &step->run, &step->ink);
+         cli_make_ink (&step->layers, CELD_FOR_DEPTH, options, &step->run, &step->ink) &&
+         (!step->layers.contours.data ||
+          cli_make_ink (&step->layers, CELD_FOR_SEGMENTATION, options, &step->run, &step->borders));
+}
+
+const CeldPlane *
+cli_step_borders (const CliStep *step)
+{
+  return step->borders.data ? &step->borders : NULL;
 }
 
 bool
@@ -62,6 +70,7 @@ cli_step_end (CliStep *step, bool good)
 {
   g_free (step->levels.data);
   g_free (step->ink.data);
+  g_free (step->borders.data);
   cli_layers_clear (&step->layers);
   cli_run_end (&step->run);
   return good ? CLI_DONE : CLI_FAILED;

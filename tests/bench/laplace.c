@@ -36,6 +36,7 @@ system_of (const char *drawing, const char *scribbles, const char *relations)
   CeldPaint    paint = read_colours (scribbles, luma.width, luma.height);
   CeldLabels   seeds;
   CeldPalette  palette = { 0 };
+  CeldDepthEdges edges;
   System       s = { luma.width, luma.height, (size_t) luma.width * (size_t) luma.height, NULL, NULL, NULL, NULL };
 
   s.east  = celd_alloc (s.n, sizeof *s.east);
@@ -55,7 +56,8 @@ system_of (const char *drawing, const char *scribbles, const char *relations)
   for (size_t p = 0; p < s.n; p++)
     s.fixed[p] = seeds.data[p] != 0;
   must (celd_cores_mark (s.width, s.height, s.value, CELD_SPECK, NULL, NULL, NULL, s.fixed));
-  must (celd_depth_weights (&ink, s.value, settings.ink_threshold, NULL, s.east, s.south));
+  edges = (CeldDepthEdges) { &ink, settings.ink_threshold, celd_edge_radius (celd_stroke_width (&ink)), NULL };
+  must (celd_depth_weights (&edges, s.value, NULL, s.east, s.south));
   celd_session_free (session);
   celd_palette_clear (&palette);
   celd_free (seeds.data);

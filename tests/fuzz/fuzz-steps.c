@@ -219,7 +219,7 @@ try_relief (Page *page)
   CeldPlane      ink = plane (page, page->ink), levels = plane (page, page->levels), depth = plane (page, page->depth);
   CeldRelief     relief = { 0 };
   CeldReliefMesh mesh = { 0 };
-  CeldStatus     status = celd_relief (&ink, &levels, &depth, &page->settings, NULL, &relief);
+  CeldStatus     status = celd_relief (&ink, NULL, &levels, &depth, &page->settings, NULL, &relief);
 
   check_status (status);
   if (status == CELD_OK && are_finite (page->levels, n) && are_finite (page->depth, n))
@@ -300,7 +300,7 @@ try_model (Page *page)
   CeldColours art = { page->width, page->height, (size_t) page->width, page->art };
   CeldModel   model = { 0 };
 
-  check_status (celd_model_of_levels (&ink, &levels, NULL, &art, &page->settings, NULL, &model));
+  check_status (celd_model_of_levels (&ink, NULL, &levels, NULL, &art, &page->settings, NULL, &model));
   for (size_t k = 0; k < model.n; k++)
     check_mesh (&model.part[k].mesh);
   celd_model_clear (&model);

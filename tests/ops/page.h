@@ -17,7 +17,7 @@
 #define PIXELS (WIDTH * HEIGHT)
 
 /* Pads in their order: input, aux, aux2, ...; NULL where nothing is connected. */
-typedef struct { GeglBuffer *pad[6]; } Pads;
+typedef struct { GeglBuffer *pad[7]; } Pads;
 
 static float   page_luma[PIXELS];
 static uint8_t page_scribbles[4 * PIXELS], page_arrows[4 * PIXELS], page_contours[4 * PIXELS];
@@ -120,11 +120,11 @@ join (GeglNode *source, GeglNode *sink, const char *pad)
 static inline GeglNode *
 add_operation (GeglNode *graph, const char *operation, Pads pads)
 {
-  static const char *const names[] = { "input", "aux", "aux2", "aux3", "aux4", "aux5" };
+  static const char *const names[] = { "input", "aux", "aux2", "aux3", "aux4", "aux5", "aux6" };
   GeglNode                *node = gegl_node_new_child (graph, "operation", operation, NULL);
   GeglNode                *source;
 
-  for (int i = 0; i < 6; i++)
+  for (int i = 0; i < 7; i++)
     if (pads.pad[i])
       {
         source = gegl_node_new_child (graph, "operation", "gegl:buffer-source", "buffer", pads.pad[i], NULL);

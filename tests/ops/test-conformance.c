@@ -94,14 +94,18 @@ depth_is_that_of_core (void)
   g_object_unref (input);
 }
 
-/* Of the page with breaks in its contours, which stay smooth if the whole page is the drawing for segmentation. */
+/* Depth, heights and normals of the page with breaks in its contours, which stay smooth if the whole page is the
+ * drawing for segmentation. */
 static void
-smooth_gaps_are_those_of_core (void)
+gaps_are_those_of_core (void)
 {
   static float broken[PIXELS], opened[PIXELS], wanted[2][PIXELS];
+  static float unit[3 * PIXELS], bent[2][3 * PIXELS];
   CeldDrawing  page = { .luma = { WIDTH, HEIGHT, WIDTH, broken } };
   CeldPlane    open = { WIDTH, HEIGHT, WIDTH, opened };
   CeldSettings settings = celd_settings ();
+  CeldRelief   relief = { 0 };
+  CeldVectors  bodies = { WIDTH, HEIGHT, WIDTH, unit };
   GeglBuffer  *input = page_buffer ("Y float", "Y float", levels.data), *gaps;
 
   for (int i = 0; i < PIXELS; i++)
@@ -115,8 +119,20 @@ smooth_gaps_are_those_of_core (void)
       CHECK (celd_smooth (&open, k ? &ink : NULL, &levels, NULL, &settings, NULL, &made, NULL) == CELD_OK);
       operate ("celdepth:depth-smooth", (Pads) { { input, gaps, NULL, k ? drawing : NULL } }, "Y float", result, NULL);
       SAME (wanted[k], 1);
+      CHECK (celd_relief (&open, k ? &ink : NULL, &levels, NULL, &settings, NULL, &relief) == CELD_OK);
+      operate ("celdepth:relief", (Pads) { { input, gaps, NULL, k ? drawing : NULL } }, "Y float", result, "unit", 1,
+               NULL);
+      SAME (relief.z, 1);
+      CHECK (celd_normals_hinted (&open, k ? &ink : NULL, &levels, NULL, NULL, &settings, NULL, &bodies) == CELD_OK);
+      for (int i = 0; i < 3 * PIXELS; i++)
+        bent[k][i] = 0.5f + 0.5f * bodies.data[i];
+      operate ("celdepth:lumo-shade", (Pads) { { input, gaps, NULL, NULL, NULL, NULL, k ? drawing : NULL } }, "RGB float",
+               result, "result", 2, NULL);
+      SAME (bent[k], 3);
     }
   CHECK (difference (wanted[0], wanted[1], PIXELS) > 0.1);
+  CHECK (difference (bent[0], bent[1], 3 * PIXELS) > 0.1);
+  celd_relief_clear (&relief);
   g_object_unref (gaps);
   g_object_unref (input);
 }
@@ -366,7 +382,7 @@ main (int argc, char **argv)
   RUN (order_uses_a_depth_hint);
   RUN (levels_are_those_of_core);
   RUN (depth_is_that_of_core);
-  RUN (smooth_gaps_are_those_of_core);
+  RUN (gaps_are_those_of_core);
   RUN (exact_depth_is_that_of_core);
   RUN (popup_is_the_steps_of_core);
   RUN (popup_reads_what_is_hidden);

@@ -21,13 +21,14 @@ static const struct { const char *name; const char *pads; const char *properties
   { "celdepth:depth-exact", "aux3 aux2 aux input",
     "ink flats background background-colour same-colour relations arrow-path arrow-style on-cycle encoding near-level "
     "far-level hold-gaps tolerance contrast weight-floor" },
-  { "celdepth:lumo-shade", "aux5 aux4 aux3 aux2 aux input",
+  { "celdepth:lumo-shade", "aux6 aux5 aux4 aux3 aux2 aux input",
     "result bulge bevel creases frame-outline light-model toon-steps light-background light light-azimuth "
     "light-elevation ambient light-x light-y light-height specular shininess rim-light rim-power shadow-size shadow-strength directx "
-    "ink ink-threshold" },
+    "ink ink-threshold hold-gaps" },
   { "celdepth:depth-enhance", "aux input",
     "result enhance shadow-size shadow-strength shadow-offset light-azimuth shadow-range" },
-  { "celdepth:relief", "aux2 aux input", "unit relief-from relief-bulge relief-depth ink ink-threshold tolerance" },
+  { "celdepth:relief", "aux3 aux2 aux input",
+    "unit relief-from relief-bulge relief-depth ink ink-threshold hold-gaps tolerance" },
   { "celdepth:stereo", "aux3 aux2 aux input",
     "stereo disparity convergence floating-window screen-width expansion margin ink" },
   { "celdepth:arap-register", "aux2 aux input", "result cell-size stiffness expansion ink" },

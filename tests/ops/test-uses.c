@@ -178,14 +178,14 @@ heights_are_those_of_core (void)
   CeldRelief   relief = { 0 };
 
   settings.relief_bulge = 0.5f;
-  CHECK (celd_relief (&ink, &levels, &depth, &settings, NULL, &relief) == CELD_OK);
+  CHECK (celd_relief (&ink, NULL, &levels, &depth, &settings, NULL, &relief) == CELD_OK);
   operate ("celdepth:relief", pads, "Y float", result, "unit", 1, "relief-bulge", 0.5, NULL);
   SAME (relief.z, 1);
   operate ("celdepth:relief", pads, "Y float", result, "relief-bulge", 0.5, NULL);
   NEAR (range (result, PIXELS), 1, 1e-6);
   settings.relief_from  = CELD_RELIEF_NORMALS;
   settings.relief_depth = 0.3f;
-  CHECK (celd_relief (&ink, &levels, NULL, &settings, NULL, &relief) == CELD_OK);
+  CHECK (celd_relief (&ink, NULL, &levels, NULL, &settings, NULL, &relief) == CELD_OK);
   operate ("celdepth:relief", without, "Y float", result, "unit", 1, "relief-bulge", 0.5, "relief-from", CELD_RELIEF_NORMALS,
            "relief-depth", 0.3, NULL);
   SAME (relief.z, 1);
@@ -244,7 +244,7 @@ all_light_is_that_of_core (void)
   s.shininess     = 8;
   s.rim_light     = 0.25f;
   s.rim_power     = 2;
-  CHECK (celd_normals_hinted (&ink, &levels, &depth, &paint, &s, NULL, &bent) == CELD_OK);
+  CHECK (celd_normals_hinted (&ink, NULL, &levels, &depth, &paint, &s, NULL, &bent) == CELD_OK);
   CHECK (difference (normal, normals.data, 3 * PIXELS) > 0.1);
   for (int model = CELD_MODEL_LAMBERT; model <= CELD_MODEL_MATCAP; model++)
     for (int result_of = 0; result_of <= 4; result_of++)

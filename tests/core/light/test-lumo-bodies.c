@@ -105,8 +105,8 @@ what_is_half_hidden_has_the_normals_of_the_whole (void)
       sheet[1].n_hidden += (size_t) (2 * half);
     }
   CHECK (celd_expanded_ownership_new (&p.ink, &p.levels, &made) == CELD_OK);
-  CHECK (celd_normals_of_sheets (&p.ink, &p.levels, &made.own, &sheets, NULL, NULL, &settings, NULL, &p.normals) ==
-         CELD_OK);
+  CHECK (celd_normals_of_sheets (&p.ink, NULL, &p.levels, &made.own, &sheets, NULL, NULL, &settings, NULL,
+                                 &p.normals) == CELD_OK);
   NEAR (compare_half (&p, d, &largest), 0, 0.5);
   CHECK (largest < 5); /* where the outline vanishes */
   celd_level_ownership_clear (&made);

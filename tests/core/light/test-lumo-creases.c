@@ -62,7 +62,7 @@ with_depth_only_the_higher_side_bends (void)
     {
       for (int i = 0; i < 200 * 160; i++)
         depth.data[i] = (i % 200 >= 80) == right ? 0.6f : 0.4f;
-      CHECK (celd_normals_hinted (&p.ink, &p.levels, &depth, NULL, &settings, NULL, &p.normals) == CELD_OK);
+      CHECK (celd_normals_hinted (&p.ink, NULL, &p.levels, &depth, NULL, &settings, NULL, &p.normals) == CELD_OK);
       folds (&p, fold);
       CHECK (fold[right] > 0.8 && fold[!right] < 0.2);
     }
@@ -102,7 +102,7 @@ hints_decide_which_side_of_a_stroke_bends (void)
         paint (&hints, 74, 79, (uint8_t) cases[i].left);
       if (cases[i].right >= 0)
         paint (&hints, 81, 86, (uint8_t) cases[i].right);
-      CHECK (celd_normals_hinted (&p.ink, &p.levels, NULL, &hints, &settings, NULL, &p.normals) == CELD_OK);
+      CHECK (celd_normals_hinted (&p.ink, NULL, &p.levels, NULL, &hints, &settings, NULL, &p.normals) == CELD_OK);
       folds (&p, fold);
       for (int side = 0; side < 2; side++)
         CHECK ((fold[side] > 0.8) == cases[i].folds[side] && (fold[side] < 0.2) == !cases[i].folds[side]);

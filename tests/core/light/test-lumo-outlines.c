@@ -28,6 +28,16 @@ a_virtual_contour_neither_cuts_nor_bends (void)
   picture_free (&q);
 }
 
+/* Normals where gaps in contours do not hold. */
+static void
+make_open (Picture *p)
+{
+  CeldSettings settings = celd_settings ();
+
+  settings.hold_gaps = false;
+  CHECK (celd_normals (&p->ink, &p->levels, &settings, NULL, &p->normals) == CELD_OK);
+}
+
 /* A contour with a gap: the disc still bends, the paper that it is joined with stays flat. */
 static void
 paper_stays_flat_behind_a_gap (void)
@@ -40,13 +50,40 @@ paper_stays_flat_behind_a_gap (void)
   for (int y = 50; y < 70; y++)
     for (int x = 90; x < 110; x++)
       p.ink.data[y * 120 + x] = 1;
-  make (&p, 1);
+  make_open (&p);
   CHECK (compare_disc (&p, d, &largest) < 10);
   CHECK (angle (&p, 93, 60, 0, 0, 1) < angle (&p, 26, 60, 0, 0, 1) - 30); /* it flattens towards the gap */
   for (int i = 0; i < 120 * 120; i += 7)
     if (hypot (i % 120 - 60, i / 120 - 60) > 44)
       NEAR (angle (&p, i % 120, i / 120, 0, 0, 1), 0, 2);
   picture_free (&p);
+}
+
+/* Where gaps hold, the disc bends as if its contour were whole; but not where only the ink for segmentation is. */
+static void
+a_gap_that_holds_bends_like_ink (void)
+{
+  Disc         d = { 60, 60, 40 };
+  Picture      whole = picture (120, 120), gap = picture (120, 120);
+  CeldSettings settings = celd_settings ();
+
+  put_disc (&whole, d, 3, 1);
+  put_disc (&gap, d, 3, 1);
+  for (int y = 54; y < 66; y++)
+    for (int x = 90; x < 110; x++)
+      gap.ink.data[y * 120 + x] = 1;
+  make (&whole, 1);
+  make (&gap, 1);
+  for (int i = 0; i < 120 * 120; i++)
+    {
+      const float *n = CELD_XYZ (&whole.normals, i % 120, i / 120);
+
+      NEAR (angle (&gap, i % 120, i / 120, (double) n[0], (double) n[1], (double) n[2]), 0, 1);
+    }
+  CHECK (celd_normals_hinted (&gap.ink, &whole.ink, &gap.levels, NULL, NULL, &settings, NULL, &gap.normals) == CELD_OK);
+  CHECK (angle (&gap, 98, 60, 0, 0, 1) < 60 && angle (&whole, 98, 60, 0, 0, 1) > 70);
+  picture_free (&whole);
+  picture_free (&gap);
 }
 
 /* A contour is closed or not, wherever it lies and however wide the picture is: cut ends are looked for in words of
@@ -67,7 +104,7 @@ closed_contours_are_told_from_open_ones_anywhere (void)
         for (int y = 22; gap && y < 30; y++)
           for (int x = width - 12; x < width; x++)
             p.ink.data[y * width + x] = 1;
-        make (&p, 1);
+        make_open (&p);
         for (int y = 0; y < 52; y++)
           for (int x = width - 52; x < width; x++)
             sum += (double) CELD_XYZ (&p.normals, x, y)[2];
@@ -116,7 +153,7 @@ hints_decide_which_side_of_an_outline_bends (void)
         memset (CELD_RGBA (&hints, x, y), inside ? 0 : 255, 3);
         CELD_RGBA (&hints, x, y)[3] = 255;
       }
-  CHECK (celd_normals_hinted (&p.ink, &p.levels, NULL, &hints, &settings, NULL, &p.normals) == CELD_OK);
+  CHECK (celd_normals_hinted (&p.ink, NULL, &p.levels, NULL, &hints, &settings, NULL, &p.normals) == CELD_OK);
   CHECK (CELD_XYZ (&p.normals, 20, 60)[0] < -0.9f);  /* left: as ever */
   CHECK (CELD_XYZ (&p.normals, 98, 60)[2] > 0.9f);   /* right: the disc runs under */
   CHECK (CELD_XYZ (&p.normals, 101, 60)[0] < -0.8f); /* the paper falls towards it */
@@ -129,6 +166,7 @@ main (void)
 {
   RUN (a_virtual_contour_neither_cuts_nor_bends);
   RUN (paper_stays_flat_behind_a_gap);
+  RUN (a_gap_that_holds_bends_like_ink);
   RUN (closed_contours_are_told_from_open_ones_anywhere);
   RUN (the_frame_is_an_outline_if_asked_for);
   RUN (hints_decide_which_side_of_an_outline_bends);

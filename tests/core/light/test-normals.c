@@ -151,9 +151,9 @@ bad_input_is_refused_or_read_as_flat (void)
   CeldSettings settings = celd_settings ();
 
   CHECK (celd_normals (&p.ink, &one.levels, &settings, NULL, &p.normals) == CELD_BAD_SIZE);
-  CHECK (celd_normals_hinted (&p.ink, &p.levels, &one.ink, NULL, &settings, NULL, &p.normals) == CELD_BAD_SIZE);
-  CHECK (celd_normals_hinted (&p.ink, &p.levels, NULL, &(CeldPaint) { 7, 5, 7, NULL }, &settings, NULL, &p.normals) ==
-         CELD_BAD_SIZE);
+  CHECK (celd_normals_hinted (&p.ink, NULL, &p.levels, &one.ink, NULL, &settings, NULL, &p.normals) == CELD_BAD_SIZE);
+  CHECK (celd_normals_hinted (&p.ink, NULL, &p.levels, NULL, &(CeldPaint) { 7, 5, 7, NULL }, &settings, NULL,
+                              &p.normals) == CELD_BAD_SIZE);
   make (&one, 1);
   NEAR (one.normals.data[2], 1, 0);
   for (int x = 10; x < 30; x++)
@@ -176,7 +176,7 @@ bad_input_is_refused_or_read_as_flat (void)
   settings.frame_outline = true;
   for (int i = 0; i < 35; i++)
     p.ink.data[i] = i % 3 ? NAN : (float) (i % 2);
-  CHECK (celd_normals_hinted (&narrow, &levels, &levels, NULL, &settings, NULL, &normals) == CELD_OK);
+  CHECK (celd_normals_hinted (&narrow, NULL, &levels, &levels, NULL, &settings, NULL, &normals) == CELD_OK);
   for (int i = 0; i < 30; i++)
     CHECK (CELD_XYZ (&normals, i % 6, i / 6)[2] >= 0);
   memset (p.ink.data, 0, 35 * sizeof (float)); /* no paper */

@@ -72,7 +72,7 @@ make (Page *p, const CeldSettings *s)
 
   CHECK (celd_level_ownership_new (&ink, &levels, &regions, NULL, s->expansion, NULL, &p->made) == CELD_OK);
   CHECK (celd_level_sheets (&p->made, &ink, s, NULL, &p->sheets) == CELD_OK);
-  CHECK (celd_parts_new (p->sheets, &p->made.own, &ink, s, NULL, &p->parts) == CELD_OK);
+  CHECK (celd_parts_new (p->sheets, &p->made.own, &ink, NULL, s, NULL, &p->parts) == CELD_OK);
 }
 
 static CeldStatus
@@ -82,7 +82,7 @@ make_model (Page *p, const CeldSettings *s, CeldModel *model)
   CeldLabels  regions = { p->width, p->height, (size_t) p->width, p->region };
   CeldColours art = { p->width, p->height, (size_t) p->width, p->art };
 
-  return celd_model_of_levels (&ink, &levels, &regions, &art, s, NULL, model);
+  return celd_model_of_levels (&ink, NULL, &levels, &regions, &art, s, NULL, model);
 }
 
 /* The height of part k at a pixel of the picture. */
@@ -189,6 +189,50 @@ a_line_separates (void)
   CHECK (z_at (&p, 1, 70, 100) > z_at (&p, 1, 96, 100) + 15);
   CHECK (z_at (&p, 2, 130, 100) > z_at (&p, 2, 104, 100) + 15);
   page_free (&p);
+}
+
+/* Two halves of different levels with a line between them, which may be broken. */
+static Page
+halves (const CeldSettings *s, bool broken)
+{
+  Page p = page_new (200, 200);
+
+  put_disc (&p, 100.5, 100, 70, 1, 2);
+  for (int i = 0; i < 200 * 200; i++)
+    if (p.region[i] == 2)
+      {
+        int x = i % 200, y = i / 200;
+
+        p.region[i] = x >= 100 ? 3 : 2;
+        p.level[i]  = x >= 100 ? 2 : 1;
+        p.ink[i]    = x < 98 || x >= 102 || (broken && y >= 90 && y < 110);
+      }
+  make (&p, s);
+  CHECK (p.parts.n == 3);
+  return p;
+}
+
+/* If gaps hold, the halves are as round as with a whole line. */
+static void
+a_gap_that_holds_separates (void)
+{
+  for (int hold = 0; hold < 2; hold++)
+    {
+      CeldSettings s = round_settings ();
+      double       most = 0;
+
+      s.hold_gaps = hold;
+
+      Page whole = halves (&s, false), gap = halves (&s, true);
+
+      for (int y = 90; y < 110; y++)
+        for (int x = 60; x < 140; x++)
+          if (abs (x - 100) > 6) /* nearer to the line its width tells */
+            most = fmax (most, fabs (z_at (&gap, 1 + (x >= 100), x, y) - z_at (&whole, 1 + (x >= 100), x, y)));
+      CHECK (hold ? most < 3 : most > 6);
+      page_free (&whole);
+      page_free (&gap);
+    }
 }
 
 /* Nowhere does a part come through one that is listed after it. */
@@ -317,6 +361,7 @@ main (void)
   RUN (a_disc_is_half_a_ball_at_its_level);
   RUN (pieces_without_a_line_between_join);
   RUN (a_line_separates);
+  RUN (a_gap_that_holds_separates);
   RUN (nearer_parts_are_in_front);
   RUN (a_part_sits_on_what_is_behind_it);
   RUN (solids_are_bodies);

@@ -48,7 +48,7 @@ put_ellipse (Picture *p, double x0, double y0, double a, double b, float level)
 static void
 make (Picture *p, const CeldSettings *settings, const CeldPlane *depth)
 {
-  CHECK (celd_relief (&p->ink, &p->levels, depth, settings, NULL, &p->relief) == CELD_OK);
+  CHECK (celd_relief (&p->ink, NULL, &p->levels, depth, settings, NULL, &p->relief) == CELD_OK);
 }
 
 static double
@@ -375,7 +375,7 @@ one_pixel_will_do (void)
   CeldSettings s = known_settings ();
   CeldRelief   relief = { 0 };
 
-  CHECK (celd_relief (&drawing, &levels, NULL, &s, NULL, &relief) == CELD_OK);
+  CHECK (celd_relief (&drawing, NULL, &levels, NULL, &s, NULL, &relief) == CELD_OK);
   CHECK (relief.cut[0] == 0);
   celd_relief_clear (&relief);
 }
@@ -388,13 +388,52 @@ hosts_can_cancel_and_bad_input_is_refused (void)
   CeldHost     host = { check_refuse, NULL, NULL };
   CeldSettings s = known_settings ();
 
-  CHECK (celd_relief (&p.ink, &p.levels, NULL, &s, &host, &p.relief) == CELD_CANCELLED);
-  CHECK (celd_relief (&p.ink, &small, NULL, &s, NULL, &p.relief) == CELD_BAD_SIZE);
-  CHECK (celd_relief (&p.ink, &p.levels, &small, &s, NULL, &p.relief) == CELD_BAD_SIZE);
+  CHECK (celd_relief (&p.ink, NULL, &p.levels, NULL, &s, &host, &p.relief) == CELD_CANCELLED);
+  CHECK (celd_relief (&p.ink, NULL, &small, NULL, &s, NULL, &p.relief) == CELD_BAD_SIZE);
+  CHECK (celd_relief (&p.ink, NULL, &p.levels, &small, &s, NULL, &p.relief) == CELD_BAD_SIZE);
   s.relief_depth = -1;
-  CHECK (celd_relief (&p.ink, &p.levels, NULL, &s, NULL, &p.relief) == CELD_BAD_VALUE);
+  CHECK (celd_relief (&p.ink, NULL, &p.levels, NULL, &s, NULL, &p.relief) == CELD_BAD_VALUE);
   CHECK (!p.relief.z);
   picture_free (&p);
+}
+
+/* ------------------------------------------------------------------ gaps */
+
+/* The difference of height between both sides of a line where it is broken for 12 pixels; `bordered`: only in the ink
+ * for depth. */
+static double
+step_at_gap (bool hold, bool bordered)
+{
+  Picture      p = picture (120, 120), whole = picture (120, 120);
+  CeldSettings s = known_settings ();
+  double       step;
+
+  s.relief_bulge = 0;
+  s.hold_gaps    = hold;
+  for (int i = 0; i < 120 * 120; i++)
+    {
+      int x = i % 120, y = i / 120;
+
+      p.levels.data[i]   = x >= 60;
+      whole.ink.data[i]  = x < 59 || x > 61;
+      p.ink.data[i]      = whole.ink.data[i] > 0 || (y >= 54 && y < 66);
+    }
+  CHECK (celd_relief (&p.ink, bordered ? &whole.ink : NULL, &p.levels, NULL, &s, NULL, &p.relief) == CELD_OK);
+  CHECK (!(p.relief.cut[60 * 120 + 59] & CELD_CUT_RIGHT) == !(hold && !bordered));
+  step = z_at (&p, 60, 60) - z_at (&p, 59, 60);
+  picture_free (&p);
+  picture_free (&whole);
+  return step;
+}
+
+static void
+a_gap_that_holds_is_cut (void)
+{
+  double whole = 0.1 * hypot (120, 120);
+
+  NEAR (step_at_gap (true, false), whole, 1e-3 * whole);
+  CHECK (step_at_gap (false, false) < 0.5 * whole);
+  CHECK (step_at_gap (true, true) < 0.5 * whole);
 }
 
 int
@@ -409,6 +448,7 @@ main (void)
   RUN (only_the_nearer_side_bends);
   RUN (what_is_nearer_stays_in_front);
   RUN (what_is_out_of_the_way_keeps_its_place);
+  RUN (a_gap_that_holds_is_cut);
   RUN (nan_does_no_harm);
   RUN (huge_depth_stays_finite);
   RUN (one_pixel_will_do);

@@ -178,6 +178,53 @@ anchors_keep_their_level (void)
   celd_session_free (s);
 }
 
+/* Differences across the gap of the sheet that is open to the right: depth, the normals' x, heights. */
+static void
+measure_gap (CeldSession *s, double step[3])
+{
+  CeldPlane   depth;
+  CeldVectors normals;
+  CeldRelief  relief = { 0 };
+
+  CHECK (celd_session_depth (s, NULL, &depth, NULL) == CELD_OK);
+  CHECK (celd_session_normals (s, NULL, &normals, NULL) == CELD_OK);
+  CHECK (celd_session_relief (s, NULL, &relief) == CELD_OK);
+  step[0] = 0;
+  for (int x = 32; x < 38; x++)
+    step[0] = fmax (step[0], (double) (CELD_AT (&depth, x, 16) - CELD_AT (&depth, x + 1, 16)));
+  step[1] = (double) CELD_XYZ (&normals, 33, 16)[0];
+  step[2] = 0;
+  for (int x = 32; x < 38; x++)
+    step[2] += relief.cut[16 * W + x] & CELD_CUT_RIGHT ? 1 : 0;
+  celd_relief_clear (&relief);
+}
+
+/* Whether gaps hold is one answer for depth, normals and relief, also after it was changed. */
+static void
+all_surfaces_end_at_gaps_that_hold (void)
+{
+  static float luma[W * H];
+  CeldDrawing  drawing = sheet (luma);
+  CeldSession *s = scene ();
+  CeldSettings settings = celd_settings ();
+
+  for (int y = 13; y < 19; y++)
+    luma[y * W + 34] = luma[y * W + 35] = 1;
+  CHECK (celd_session_set_drawing (s, &drawing) == CELD_OK);
+  for (int turn = 0; turn < 4; turn++)
+    {
+      double step[3];
+
+      settings.hold_gaps = turn % 2 == 0;
+      CHECK (celd_session_set_settings (s, &settings) == CELD_OK);
+      measure_gap (s, step);
+      CHECK (settings.hold_gaps ? step[0] > 0.99 : step[0] < 0.5);
+      CHECK (settings.hold_gaps ? step[1] > 0.6 : step[1] < 0.3);
+      CHECK (settings.hold_gaps ? step[2] == 1 : step[2] == 0);
+    }
+  celd_session_free (s);
+}
+
 /* No stage is made again, so a host that cancels at the first report is not called. */
 static void
 equal_input_invalidates_nothing (void)
@@ -404,6 +451,7 @@ main (void)
   RUN (edits_report_the_rectangle_that_changed);
   RUN (single_relations_add_to_the_text);
   RUN (anchors_keep_their_level);
+  RUN (all_surfaces_end_at_gaps_that_hold);
   RUN (equal_input_invalidates_nothing);
   RUN (a_new_ink_threshold_changes_the_labels);
   RUN (suggestions_are_used_only_on_demand);
