@@ -224,8 +224,45 @@ is_solid (const CeldPlane *contrast, int x, int y)
   return true;
 }
 
+/* The contrast at a pixel, or at the one nearest to it in the picture. */
+static float
+nearest_contrast (const CeldPlane *contrast, int x, int y)
+{
+  x = x < 0 ? 0 : x < contrast->width ? x : contrast->width - 1;
+  y = y < 0 ? 0 : y < contrast->height ? y : contrast->height - 1;
+  return CELD_AT (contrast, x, y);
+}
+
+/* Whether the pixel is on a line thinner than a pixel, which is pale because it covers its pixels in part: there is paper
+ * on both sides, what lies between them has less ink than a black line a pixel wide, and nothing around is much darker,
+ * so that it is not at the end or the corner of a dark stroke. */
+static bool
+is_hairline (const CeldPlane *contrast, int x, int y, float dark)
+{
+  static const struct { int x, y; float apart; } across[] = { { 1, 0, 1 }, { 0, 1, 1 },
+                                                              { 1, 1, 1.414f }, { 1, -1, 1.414f } };
+  float c = CELD_AT (contrast, x, y);
+
+  for (int v = -2; v <= 2; v++)
+    for (int u = -2; u <= 2; u++)
+      if (c < 0.6f * nearest_contrast (contrast, x + u, y + v))
+        return false;
+  for (int i = 0; i < 4; i++)
+    {
+      int   u = across[i].x, v = across[i].y;
+      float before = nearest_contrast (contrast, x - u, y - v), after = nearest_contrast (contrast, x + u, y + v);
+
+      if (celd_most (before, after) <= c && across[i].apart * (before + c + after) < 0.8f * dark &&
+          nearest_contrast (contrast, x - 2 * u, y - 2 * v) < 0.25f * c &&
+          nearest_contrast (contrast, x + 2 * u, y + 2 * v) < 0.25f * c)
+        return true;
+    }
+  return false;
+}
+
 /* Whether a pixel shows how dark its stroke is.  Without noise a grey one may be the antialiased edge of a black
- * stroke, unless it is inside a grey stroke, or nothing dark is near.  `around` is the largest contrast near it. */
+ * stroke, unless it is inside a grey stroke, on a line thinner than a pixel, or nothing dark is near.  `around` is the
+ * largest contrast near it. */
 static bool
 shows_level (const InkWork *w, int x, int y, float around)
 {
@@ -233,7 +270,8 @@ shows_level (const InkWork *w, int x, int y, float around)
 
   if (c < w->faintest || w->noisy)
     return c >= w->faintest;
-  return around < 0.45f * w->dark || (c < 0.75f * w->dark && is_solid (&w->contrast, x, y));
+  return around < 0.45f * w->dark ||
+         (c < 0.75f * w->dark && (is_solid (&w->contrast, x, y) || is_hairline (&w->contrast, x, y, w->dark)));
 }
 
 /* Keeps in w->level the pixels that show how dark their stroke is; returns whether some strokes are pale. */

@@ -237,8 +237,21 @@ def forgotten():
     return f
 
 
+def hairline():
+    """A ring half a pixel wide, nowhere darker than half of the ink, inside a box with a thick outline."""
+    f = Figure()
+    f.shape(box(20, 20, 220, 180), 6)
+    around = [2 * math.pi * i / 200 for i in range(201)]
+    ring = [(120.3 + 80 * math.cos(a), 100.2 + 60 * math.sin(a)) for a in around]
+    f.ink.line([(x * SCALE, y * SCALE) for x, y in ring], 0, SCALE // 2)
+    f.stroke('scribbles', [(100, 95), (140, 105)], A)
+    f.stroke('scribbles', [(30, 30), (210, 30)], B)
+    f.stroke('scribbles', [(8, 10), (8, 190)], C)
+    return f
+
+
 FIGURES = [two_arrows, thick, contours, two_characters, frame, limbs, cycle, broken, pinched_little, pinched_much,
-           severed, close_up, forgotten]
+           severed, close_up, forgotten, hairline]
 
 
 if __name__ == '__main__':

@@ -173,8 +173,17 @@ def forgotten(run):
     yield 'and no other', len(places) == 2
 
 
+def hairline(run):
+    r = run()
+    y, x = np.mgrid[:200, :240] + 0.5
+    ring = ((x - 120.3) / 80) ** 2 + ((y - 100.2) / 60) ** 2
+    inside, outside = ring < 0.92, (ring > 1.08) & (abs(x - 120) < 95) & (abs(y - 100) < 75)
+    yield 'inside the ring', (r.labels[inside][:, :3] == figures.A).all()
+    yield 'between the ring and the box', (r.labels[outside][:, :3] == figures.B).all()
+
+
 OUTCOMES = [two_arrows, thick, contours, two_characters, frame, limbs, cycle, broken, pinched, pinched,
-            severed, close_up, forgotten]
+            severed, close_up, forgotten, hairline]
 
 
 def main():

@@ -315,6 +315,57 @@ blur_fills_no_neck (void)
     }
 }
 
+/* A line of a third to three fifths of a pixel, in a drawing with a black stroke, is ink along all of its length, and
+ * paper beside it stays paper. */
+static void
+hairlines_are_ink (void)
+{
+  for (float breadth = 0.3f; breadth < 0.65f; breadth += 0.05f)
+    {
+      int gaps = 0, stains = 0;
+
+      for (int i = 0; i < SIDE * SIDE; i++)
+        {
+          float line = fabsf ((float) (i % SIDE) - 100.3f + 0.07f * (float) (i / SIDE));
+          float covered = i % SIDE > 20 && i % SIDE < 30 ? 1 : fminf (fmaxf (0.5f * breadth + 0.5f - line, 0), breadth);
+
+          luma_of[i] = 1 - covered;
+        }
+      CHECK (make_ink (CELD_INK_AUTO, false) == CELD_OK);
+      for (int y = 0; y < SIDE; y++)
+        {
+          float darkest = 1;
+
+          for (int x = 40; x < SIDE; x++)
+            if (fabsf ((float) x - 100.3f + 0.07f * (float) y) < 1)
+              darkest = fminf (darkest, ink_of[y * SIDE + x]);
+            else
+              stains += ink_of[y * SIDE + x] < 1;
+          gaps += darkest >= 0.5f;
+        }
+      CHECK (gaps == 0 && stains == 0);
+    }
+}
+
+/* Ends of black strokes are pale where they taper; that makes no ink beside them. */
+static void
+tapering_strokes_stay (void)
+{
+  float worst = 0;
+
+  for (int i = 0; i < SIDE * SIDE; i++)
+    {
+      float half = 0.04f * ((float) (i % SIDE) - 20), line = fabsf ((float) (i / SIDE) - 80.4f);
+
+      luma_of[i] = 1 - fminf (fmaxf (half + 0.5f - line, 0), fminf (fmaxf (2 * half, 0), 1));
+    }
+  CHECK (make_ink (CELD_INK_AUTO, false) == CELD_OK);
+  for (int i = 0; i < SIDE * SIDE; i++)
+    if (luma_of[i] == 1 || 0.08f * (float) (i % SIDE - 20) > 1.2f)
+      worst = fmaxf (worst, fabsf (ink_of[i] - luma_of[i]));
+  NEAR (worst, 0, 1e-3);
+}
+
 /* A flat grey area is no stroke: it stays grey. */
 static void
 grey_areas_stay_grey (void)
@@ -434,6 +485,8 @@ main (void)
   RUN (faint_lines_beside_dark_ones_stay_closed);
   RUN (chalk_with_holes_stays_closed);
   RUN (blur_fills_no_neck);
+  RUN (hairlines_are_ink);
+  RUN (tapering_strokes_stay);
   RUN (grey_areas_stay_grey);
   RUN (light_is_dark_inverted);
   RUN (alpha_is_ink);
