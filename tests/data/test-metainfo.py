@@ -1,0 +1,71 @@
+#!/usr/bin/python3
+"""What GIMP, Flatpak and software centres read of the plug-in: it is valid, and its parts agree with each other.
+
+test-metainfo.py METAINFO VERSION
+
+SPDX-License-Identifier: LGPL-3.0-or-later
+"""
+import json
+import os
+import re
+import subprocess
+import sys
+import unittest
+import xml.etree.ElementTree as ElementTree
+
+TOP = os.path.join(os.path.dirname(os.path.abspath(__file__)), '..', '..')
+METAINFO, VERSION = sys.argv[1:]
+ID = 'org.gimp.GIMP.Plugin.Celdepth'
+
+
+def text_of(*path):
+    with open(os.path.join(TOP, *path), encoding='utf-8') as file:
+        return file.read()
+
+
+class Metainfo(unittest.TestCase):
+    root = ElementTree.parse(METAINFO).getroot()
+
+    def test_valid(self):
+        done = subprocess.run(['appstreamcli', 'validate', '--no-net', METAINFO], capture_output=True, text=True,
+                              check=False)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+
+    def test_what_gimp_needs(self):
+        """GIMP refuses an extension that lacks one of these, or is in a folder of another name."""
+        self.assertEqual(os.path.basename(METAINFO), ID + '.metainfo.xml')
+        self.assertEqual((self.root.get('type'), self.root.findtext('id'), self.root.findtext('extends')),
+                         ('addon', ID, 'org.gimp.GIMP'))
+        self.assertEqual(self.root.find('releases/release').get('version'), VERSION)
+        self.assertEqual(self.root.findtext('requires/id'), 'org.gimp.GIMP')
+        self.assertEqual([value.text for value in self.root.iter('value') if value.get('key') == 'GIMP::plug-in-path'],
+                         ['celdepth'])
+
+    def test_icon(self):
+        self.assertEqual(self.root.findtext('icon'), 'celdepth')
+        icon = ElementTree.fromstring(text_of('data', 'celdepth.svg'))
+        self.assertEqual(icon.tag, '{http://www.w3.org/2000/svg}svg')
+        self.assertEqual(icon.get('width'), icon.get('height'))
+
+
+class Flatpak(unittest.TestCase):
+    manifest = json.loads(text_of('data', ID + '.json'))
+
+    def test_extension(self):
+        """An extension lives in the folder of the last word of its name, and GIMP merges the plug-ins of all."""
+        self.assertEqual(self.manifest['id'], ID)
+        self.assertEqual((self.manifest['runtime'], self.manifest['build-extension']), ('org.gimp.GIMP', True))
+        self.assertEqual(self.manifest['build-options']['prefix'], '/app/extensions/' + ID.rsplit('.', 1)[1])
+
+    def test_options_exist(self):
+        known = set(re.findall(r"^option\('([^']+)'", text_of('meson_options.txt'), re.M))
+        given = dict(word.removeprefix('-D').split('=', 1) for word in self.manifest['modules'][0]['config-opts'])
+        self.assertLessEqual(set(given), known)
+        self.assertEqual(given['gimp3-plugin-dir'], self.manifest['build-options']['prefix'] + '/plug-ins')
+
+    def test_licence_exists(self):
+        self.assertTrue(text_of('LICENSE'))
+
+
+if __name__ == '__main__':
+    unittest.main(argv=sys.argv[:1])
