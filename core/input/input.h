@@ -26,6 +26,7 @@
 /* ------------------------------------------------------------------ scribbles */
 
 #define CELD_LEAST_DOT  4       /* solid pixels that make a label: a dot of 2 x 2; chosen */
+#define CELD_HARD_COLOURS 32    /* colours that a layer of hard strokes has at most; chosen */
 #define CELD_PIXEL_ART  256     /* pixels, the longer side of the largest; chosen */
 #define CELD_THIN       3       /* pixels: a run of a colour at most this long can be a fringe; chosen */
 #define CELD_NO_CLUSTER UINT32_MAX
@@ -74,6 +75,7 @@ typedef struct
   uint32_t             paper;      /* the colour that means no label in a picture without alpha; 0 = transparent does */
   int                  radius;     /* colours at most this far apart are equal */
   bool                 lossy;      /* there was noise to be filtered */
+  bool                 hard;       /* each pixel is transparent or opaque, and of few colours */
   bool                 pixel_art;  /* it is small, and each pixel is transparent or opaque */
   CeldScribbleCluster *cluster;
   size_t               n_clusters;

@@ -245,12 +245,12 @@ find_apart (CeldScribbleLayer *r)
 
 /* Is the cluster a label?  Fringes of other strokes may have its colour, but no interior pixels, except for the soft
  * ends of brushes on paper.  In a lossy picture a fringe may look like a pencil line, so that a label needs interior
- * pixels there.  In pixel art, where a stray pixel would be seen, a dot of one pixel is a label if it touches no other
- * colour, as a fringe would. */
+ * pixels there.  In pixel art, where a stray pixel would be seen, a dot of one pixel is a label if strokes are hard, or
+ * if it touches no other colour, as a fringe would. */
 static bool
 is_label (const CeldScribbleLayer *r, const CeldScribbleCluster *k)
 {
-  if (r->pixel_art && !r->lossy && k->apart)
+  if (r->pixel_art && !r->lossy && (k->apart || r->hard))
     return true;
   if (k->solid < CELD_LEAST_DOT || (r->lossy && !has_interior (k)))
     return false;

@@ -105,7 +105,9 @@ count_colours (CeldScribbleLayer *r, bool flats, const CeldHost *host)
           r->colour[id[x]].opacity += p[3];
         }
     }
-  r->pixel_art = hard && !opaque && r->width <= CELD_PIXEL_ART && r->height <= CELD_PIXEL_ART;
+  hard = hard && !opaque;
+  r->hard = hard && r->n <= CELD_HARD_COLOURS + 1;
+  r->pixel_art = hard && r->width <= CELD_PIXEL_ART && r->height <= CELD_PIXEL_ART;
   if (opaque && !flats)
     for (size_t i = 1; i < r->n; i++)
       if (r->colour[i].pixels > r->colour[r->paper].pixels || !r->paper)

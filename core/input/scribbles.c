@@ -2,9 +2,10 @@
  *
  * A pixel is a fringe if it lies in a thin run, or on a ramp, between two other colours, and its own colour lies
  * between theirs, too.  Soft brushes, antialiasing, overlaps and resampling make fringes; a pencil line one pixel wide
- * is none, because it has the same colour on both of its sides.  Colours with solid pixels are labels
- * (scribble-clusters.c); every other pixel is assigned to one of them (scribble-places.c).  Transparent counts as a
- * colour unlike all others.
+ * is none, because it has the same colour on both of its sides.  A layer of few colours without translucent pixels has
+ * hard strokes and no fringes: what is left of a stroke beside another one is a label, however thin.  Colours with
+ * solid pixels are labels (scribble-clusters.c); every other pixel is assigned to one of them (scribble-places.c).
+ * Transparent counts as a colour unlike all others.
  *
  * Cost: O(pixels); 9 bytes a pixel, and 8 more for each pixel whose label comes from a neighbour.
  *
@@ -80,7 +81,7 @@ classify_row (void *data, int y)
 
       if (!*p || (r->paper && !differ (r, *p, r->paper)))
         r->kind[i] = CELD_INTERIOR;
-      else if (in_fringe (r, p, left, right, 1) || in_fringe (r, p, above, below, (ptrdiff_t) width))
+      else if (!r->hard && (in_fringe (r, p, left, right, 1) || in_fringe (r, p, above, below, (ptrdiff_t) width)))
         r->kind[i] = CELD_FRINGE;
       else
         {

@@ -4,7 +4,7 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "check.h"
-#include "celdepth.h"
+#include "image/image.h"
 
 
 enum { WIDTH = 400, HEIGHT = 300 };
@@ -349,6 +349,40 @@ sizes (void)
     }
 }
 
+/* Hard strokes that cover each other: each colour that shows in four pixels or more is a label, with just these. */
+static void
+remains_of_hard_strokes (void)
+{
+  uint32_t r = 5;
+
+  for (int round = 0; round < 40; round++)
+    {
+      size_t shown[8] = { 0 };
+
+      clear_paint (false);
+      for (int k = 0; k < 40; k++)
+        {
+          int x0 = (int) check_random (&r, 60), y0 = (int) check_random (&r, 40), of = (int) check_random (&r, 8);
+          int w = 1 + (int) check_random (&r, 12), h = 1 + (int) check_random (&r, 12);
+
+          for (int i = 0; i < w * h; i++)
+            lay (x0 + i % w, y0 + i / w, (uint8_t[3]) { of & 1 ? 255 : 0, of & 2 ? 255 : 0, of & 4 ? 255 : 0 }, 1);
+        }
+      for (int p = 0; p < WIDTH * HEIGHT; p++)
+        if (paint_of[4 * p + 3])
+          shown[!!paint_of[4 * p] + 2 * !!paint_of[4 * p + 1] + 4 * !!paint_of[4 * p + 2]]++;
+      CHECK (read_size (WIDTH, HEIGHT) == CELD_OK);
+      for (int of = 0; of < 8; of++)
+        if (shown[of] >= 4)
+          {
+            uint8_t  colour[3] = { of & 1 ? 255 : 0, of & 2 ? 255 : 0, of & 4 ? 255 : 0 };
+            uint32_t label = celd_palette_find (&palette, colour);
+
+            CHECK (label && palette.item[label - 1].seeds >= shown[of]);
+          }
+    }
+}
+
 int
 main (void)
 {
@@ -365,6 +399,7 @@ main (void)
   RUN (soft_brushes_on_paper);
   RUN (blurred_strokes_on_paper);
   RUN (half_transparent_is_the_limit);
+  RUN (remains_of_hard_strokes);
   RUN (sizes);
   celd_palette_clear (&palette);
   return DONE;
