@@ -8,6 +8,8 @@
 #include "segment/basins.h"
 #include "segment/task.h"
 
+#include <stdlib.h>
+
 static CeldStatus
 ink_step (const CeldHost *host, Results *r)
 {
@@ -166,6 +168,44 @@ windows_step (const CeldHost *host, Results *r)
   return status;
 }
 
+/* A strip of single pixels between two lines, with paint in one of them. */
+static CeldStatus
+pinches_step (const CeldHost *host, Results *r)
+{
+  static float    page[H * H];
+  static uint32_t label[H * H];
+  CeldPlane       ink = { H, H, H, page };
+  CeldBasins      basins = { 0 };
+  CeldSegmentTask task = { .settings = &scene_settings, .ink = &ink, .basins = &basins };
+  uint32_t        added;
+  CeldStatus      status;
+
+  (void) r;
+  for (int y = 0; y < H; y++)
+    for (int x = 0; x < H; x++)
+      CELD_AT (&ink, x, y) = abs (x - y) != 1;
+  status = celd_basins_new (&ink, scene_settings.ink_threshold, NULL, &basins);
+  if (status == CELD_OK)
+    status = celd_seed_rows_new (H, H, &task.seeds);
+  if (status == CELD_OK)
+    status = celd_seed_rows_paint (&task.seeds, 0, 2, H, 1);
+  if (status == CELD_OK)
+    status = celd_seed_rows_paint (&task.seeds, 4, 4, 5, 2);
+  for (int k = 0; k < 2 && status == CELD_OK; k++)
+    status = celd_task_add_label (&task, (CeldRegion) { .colour = { 0, 0, 0, 255 } }, &added);
+  if (status == CELD_OK)
+    {
+      celd_task_set_soft_cost (&task);
+      status = celd_basin_graph_solve (&task, host, label);
+    }
+  if (status == CELD_OK && label[celd_basin_at (&basins, H - 4, H - 4)] != 2)
+    status = CELD_BAD_VALUE; /* there is no pinch: the test would say nothing */
+  celd_basins_clear (&basins);
+  celd_seed_rows_clear (&task.seeds);
+  celd_palette_clear (&task.palette);
+  return status;
+}
+
 /* A line with a gap, between basins above it and below. */
 static CeldStatus
 closures_step (const CeldHost *host, Results *r)
@@ -279,6 +319,7 @@ const Step region_steps[] = {
   { "flats", flats_step, &seed_palette, true },
   { "walker", walker_step, &seed_palette, true },
   { "windows", windows_step, NULL, true },
+  { "pinches", pinches_step, NULL, true },
   { "closures", closures_step, NULL, true },
   { "separate", separate_step, &label_palette, true },
   { "labels", labels_step, NULL, false },

@@ -9,7 +9,8 @@
  * with paint of one label keeps that label, whatever a cut would save.
  *
  * The energy gives a node without paint to the label with the longest border, through a thick outline rather than a
- * pinch.  So these are cut once more, with the labels of all others given: they go over the weakest barrier.
+ * pinch.  So these are cut once more, with the labels of all others given: they go over the weakest barrier, or, if a
+ * pinch has cut them off in a drawing with lines of a pixel, to the region that they are part of (pinches.c).
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -19,7 +20,7 @@
 #include "solve/maxflow.h"
 #include "solve/partition.h"
 
-#define SHARED UINT32_MAX       /* value of sole_label: several labels have paint there */
+#define SHARED        UINT32_MAX /* value of sole_label: several labels have paint there */
 
 typedef struct
 {
@@ -33,7 +34,8 @@ typedef struct
   uint32_t              *order;
   CeldLink              *link;
   CeldVote              *vote;
-  size_t                 n_links, n_votes;
+  CeldPinch             *pinch;
+  size_t                 n_links, n_votes, n_pinches;
   size_t                 vote_capacity;
 } Graph;
 
@@ -67,6 +69,7 @@ graph_clear (Graph *g)
   celd_free (g->order);
   celd_free (g->link);
   celd_free (g->vote);
+  celd_free (g->pinch);
 }
 
 /* ------------------------------------------------------------------ nodes */
@@ -205,89 +208,137 @@ gather_data_costs (Graph *g)
   return CELD_OK;
 }
 
-/* Sums up the boundaries between each two nodes to a link: their smoothness costs or, if `barriers`, how weak they are.
- */
+/* Lists the boundaries between nodes, each with its smoothness cost or, if `barriers`, with how weak it is, and then
+ * also the pinches; returns their number. */
+static size_t
+list_links (const Graph *g, bool barriers, CeldLink *link)
+{
+  const CeldBasins *basins = g->task->basins;
+  size_t            n = 0;
+
+  for (size_t i = 0; i < basins->n_boundaries; i++)
+    {
+      const CeldBasinBoundary *b = &basins->boundary[i];
+
+      link[n++] = (CeldLink) { g->node[b->a], g->node[b->b], barriers ? b->weakness : b->cost };
+    }
+  for (size_t i = 0; i < g->n_pinches && barriers; i++)
+    link[n++] = (CeldLink) { g->node[g->pinch[i].a], g->node[g->pinch[i].b], g->pinch[i].weakness };
+  return n;
+}
+
+/* Sums up what joins each two nodes to a link: smoothness costs or, if `barriers`, how weak the barrier is. */
 static CeldStatus
 gather_links (Graph *g, bool barriers)
 {
-  const CeldBasins *basins = g->task->basins;
-  size_t           *first = celd_alloc0 (g->n + 2, sizeof *first);      /* of node k's boundaries, as the lesser node */
-  size_t           *boundary = celd_alloc (basins->n_boundaries, sizeof *boundary);
-  size_t           *found = celd_alloc (g->n, sizeof *found);           /* by node: its link with the current one */
-  CeldStatus        status = first && boundary && found ? CELD_OK : CELD_NO_MEMORY;
+  size_t      most = g->task->basins->n_boundaries + g->n_pinches, n;
+  CeldLink   *listed = celd_alloc (most, sizeof *listed);
+  size_t     *first = celd_alloc0 (g->n + 2, sizeof *first);      /* of node k's links, as the lesser node */
+  uint32_t   *sorted = celd_alloc (most, sizeof *sorted);
+  size_t     *found = celd_alloc (g->n, sizeof *found);           /* by node: its link with the current one */
+  CeldStatus  status = listed && first && sorted && found ? CELD_OK : CELD_NO_MEMORY;
 
   if (status != CELD_OK)
     goto done;
+  n = list_links (g, barriers, listed);
   g->n_links = 0;
   for (size_t k = 0; k < g->n; k++)
     found[k] = SIZE_MAX;
-  for (int pass = 0; pass < 2; pass++)
-    {
-      for (size_t i = 0; i < basins->n_boundaries; i++)
-        {
-          uint32_t a = g->node[basins->boundary[i].a], b = g->node[basins->boundary[i].b];
-
-          if (a == b)
-            continue;
-          if (pass)
-            boundary[first[(a < b ? a : b) + 1]++] = i;
-          else
-            first[(a < b ? a : b) + 2]++;
-        }
-      for (size_t k = 2; k < g->n + 2 && !pass; k++)
-        first[k] += first[k - 1];
-    }
+  for (size_t i = 0; i < n; i++)
+    first[(listed[i].a < listed[i].b ? listed[i].a : listed[i].b) + 2]++;
+  for (size_t k = 2; k < g->n + 2; k++)
+    first[k] += first[k - 1];
+  for (size_t i = 0; i < n; i++)
+    sorted[first[(listed[i].a < listed[i].b ? listed[i].a : listed[i].b) + 1]++] = (uint32_t) i;
   for (size_t k = 0; k < g->n; k++)
     {
       size_t begin = g->n_links;
 
       for (size_t i = first[k]; i < first[k + 1]; i++)
         {
-          const CeldBasinBoundary *b = &basins->boundary[boundary[i]];
-          uint32_t                 other = g->node[b->a] == k ? g->node[b->b] : g->node[b->a];
+          const CeldLink *link = &listed[sorted[i]];
+          uint32_t        other = link->a == k ? link->b : link->a;
 
+          if (other == k)
+            continue;
           if (found[other] == SIZE_MAX || found[other] < begin)
             {
               found[other] = g->n_links;
               g->link[g->n_links++] = (CeldLink) { (uint32_t) k, other, 0 };
             }
-          g->link[found[other]].cost += barriers ? b->weakness : b->cost;
+          g->link[found[other]].cost += link->cost;
         }
     }
 
 done:
+  celd_free (listed);
   celd_free (first);
-  celd_free (boundary);
+  celd_free (sorted);
   celd_free (found);
   return status;
 }
 
 /* ------------------------------------------------------------------ nodes without paint */
 
+/* Fixes nodes with paint to their labels; returns how many have none. */
+static size_t
+fix_painted (Graph *g, bool *painted)
+{
+  const CeldBasins *basins = g->task->basins;
+  size_t            unpainted = g->n;
+
+  for (size_t i = 0; i < g->strokes.n_pieces; i++)
+    if (informative_pixels (basins, &g->strokes.piece[i]))
+      painted[g->node[g->strokes.piece[i].basin]] = true;
+  for (size_t k = 0; k < g->n; k++)
+    {
+      g->fixed[k] = painted[k] ? g->label[k] : 0;
+      unpainted -= painted[k];
+    }
+  return unpainted;
+}
+
+/* Finds the pinches of nodes that are not fixed, and makes room for their links. */
+static CeldStatus
+find_pinches (Graph *g)
+{
+  const CeldBasins *basins = g->task->basins;
+  bool             *wanted = celd_alloc (basins->n, sizeof *wanted);
+  CeldStatus        status = wanted ? CELD_OK : CELD_NO_MEMORY;
+
+  for (size_t k = 0; k < basins->n && wanted; k++)
+    wanted[k] = !g->fixed[g->node[k]];
+  if (status == CELD_OK)
+    status = celd_pinches_find (g->task->ink, basins, wanted, &g->pinch, &g->n_pinches);
+  celd_free (wanted);
+  if (status != CELD_OK || !g->n_pinches)
+    return status;
+  celd_free (g->link);
+  g->link = celd_alloc (basins->n_boundaries + g->n_pinches, sizeof *g->link);
+  return g->link ? CELD_OK : CELD_NO_MEMORY;
+}
+
 /* Nodes with paint keep their labels, and all others get the label behind the weakest barrier. */
 static CeldStatus
 label_unpainted (Graph *g, const CeldHost *host)
 {
-  const CeldBasins *basins = g->task->basins;
-  bool             *painted = celd_alloc0 (g->n, sizeof *painted);
-  size_t            n = g->n;
-  CeldPartition     problem = { g->n, g->link, 0, NULL, 0, g->fixed, g->order, g->task->palette.n };
-  CeldStatus        status = painted ? CELD_OK : CELD_NO_MEMORY;
+  bool      *painted = celd_alloc0 (g->n, sizeof *painted);
+  size_t     unpainted = painted ? fix_painted (g, painted) : 0;
+  CeldStatus status = painted ? CELD_OK : CELD_NO_MEMORY;
 
-  for (size_t i = 0; i < g->strokes.n_pieces && status == CELD_OK; i++)
-    if (informative_pixels (basins, &g->strokes.piece[i]))
-      painted[g->node[g->strokes.piece[i].basin]] = true;
-  for (size_t k = 0; k < g->n && status == CELD_OK; k++)
-    {
-      g->fixed[k] = painted[k] ? g->label[k] : 0;
-      n -= painted[k];
-    }
   celd_free (painted);
-  if (status != CELD_OK || !n || n == g->n)
+  if (status != CELD_OK || !unpainted || unpainted == g->n)
     return status;
-  status = gather_links (g, true);
-  problem.n_links = g->n_links;
-  return status == CELD_OK ? celd_partition (&problem, host, g->label, NULL, NULL) : status;
+  status = find_pinches (g);
+  if (status == CELD_OK)
+    status = gather_links (g, true);
+  if (status == CELD_OK)
+    {
+      CeldPartition problem = { g->n, g->link, g->n_links, NULL, 0, g->fixed, g->order, g->task->palette.n };
+
+      status = celd_partition (&problem, host, g->label, NULL, NULL);
+    }
+  return status;
 }
 
 /* ------------------------------------------------------------------ the whole */
