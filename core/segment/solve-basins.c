@@ -20,6 +20,7 @@
 #include "solve/maxflow.h"
 #include "solve/partition.h"
 
+#define OUTLINE_SHARE 16 /* an outline towards the background counts 1 / so much as a barrier (chosen) */
 #define SHARED        UINT32_MAX /* value of sole_label: several labels have paint there */
 
 typedef struct
@@ -208,6 +209,18 @@ gather_data_costs (Graph *g)
   return CELD_OK;
 }
 
+/* How weak a boundary is as a barrier.  Closed lines towards the background are taken to be outlines: an unpainted part
+ * inside one is rather a piece of the figure that the artist forgot. */
+static int64_t
+barrier_weakness (const Graph *g, const CeldBasinBoundary *b)
+{
+  uint32_t p = g->fixed[g->node[b->a]], q = g->fixed[g->node[b->b]];
+  bool     background = (p && g->task->palette.item[p - 1].background) ||
+                        (q && g->task->palette.item[q - 1].background);
+
+  return background && !b->opening ? b->weakness / OUTLINE_SHARE : b->weakness;
+}
+
 /* Lists the boundaries between nodes, each with its smoothness cost or, if `barriers`, with how weak it is, and then
  * also the pinches; returns their number. */
 static size_t
@@ -220,7 +233,7 @@ list_links (const Graph *g, bool barriers, CeldLink *link)
     {
       const CeldBasinBoundary *b = &basins->boundary[i];
 
-      link[n++] = (CeldLink) { g->node[b->a], g->node[b->b], barriers ? b->weakness : b->cost };
+      link[n++] = (CeldLink) { g->node[b->a], g->node[b->b], barriers ? barrier_weakness (g, b) : b->cost };
     }
   for (size_t i = 0; i < g->n_pinches && barriers; i++)
     link[n++] = (CeldLink) { g->node[g->pinch[i].a], g->node[g->pinch[i].b], g->pinch[i].weakness };

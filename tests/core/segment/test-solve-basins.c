@@ -243,6 +243,44 @@ unpainted_enclosures_go_over_the_weakest_barrier (void)
   page_close (&p);
 }
 
+/* A foot without paint, on nearly all of its outline against the background; and a loop of a rope, with nothing but the
+ * background about it. */
+static void
+unpainted_parts_of_a_figure_are_no_background (void)
+{
+  static const char *const drawing[] = {
+    "..............................",
+    "....##########................",
+    "....##########......########..",
+    "....##......##......#......#..",
+    "....##......##......#......#..",
+    "....##......##......#......#..",
+    "....##......##......########..",
+    "....##################........",
+    "....##################........",
+    "....##..............##........",
+    "....##..............##........",
+    "....##..............##........",
+    "....##################........",
+    "....##################........",
+    "..............................", NULL };
+  static const char *const painted[] = {
+    "AAAAAAAAAAAAAAAAAAAAAAAAAAAAAA",
+    "..............................", "..............................", "..............................",
+    ".......BBB....................", ".......BBB....................",
+    "..............................", "..............................", "..............................",
+    "..............................", "..............................", "..............................",
+    "..............................", "..............................", "..............................", NULL };
+  Page p;
+
+  page_open (&p, drawing, painted, 2);
+  p.task.palette.item[0].background = true;
+  solve (&p);
+  CHECK (label_at (&p, 8, 4) == 2 && label_at (&p, 12, 10) == 2 && label_at (&p, 26, 12) == 1);
+  CHECK (label_at (&p, 24, 4) == 1);
+  page_close (&p);
+}
+
 int
 main (void)
 {
@@ -251,6 +289,7 @@ main (void)
   RUN (hard_labels_are_obeyed_and_the_greater_wins_a_basin);
   RUN (paint_on_a_line_does_not_count);
   RUN (unpainted_enclosures_go_over_the_weakest_barrier);
+  RUN (unpainted_parts_of_a_figure_are_no_background);
   RUN (closed_enclosures_get_the_labels_of_exact_cuts);
   return DONE;
 }
