@@ -5,15 +5,16 @@ SPDX-License-Identifier: LGPL-3.0-or-later
 import os
 
 VARIANTS = ['gappy', 'wide', 'crop', 'pencil']
-KINDS = ['clean', *VARIANTS, 'sloppy']
+MADE = ['sloppy', 'pixel'] # of the clean drawings, when they are asked for
+KINDS = ['clean', *VARIANTS, *MADE]
 
 # A few of every kind that are quickly made, for `tests/run` and `tests/same --quick`.
 QUICK = ['bee', 'campfire', 'folders', 'monkey', 'people', 'bee-gappy', 'monkey-wide', 'house-crop',
-         'caterpillar-pencil', 'armadillo-sloppy', 'frog-sloppy', 'people-sloppy']
+         'caterpillar-pencil', 'armadillo-sloppy', 'frog-sloppy', 'people-sloppy', 'lemonade-pixel', 'house-pixel']
 
 
 def cases_in(folder, kinds):
-    """(name, kind, folder) of every case of these kinds; a sloppy one has the folder of its clean drawing."""
+    """(name, kind, folder) of every case of these kinds; one that is made has the folder of its clean drawing."""
     for name in sorted(os.listdir(folder)):
         path = os.path.join(folder, name)
         if os.path.exists(os.path.join(path, 'truth.json')):
@@ -21,8 +22,9 @@ def cases_in(folder, kinds):
             kind = variant if variant in VARIANTS else 'clean'
             if kind in kinds:
                 yield name, kind, path
-            if kind == 'clean' and 'sloppy' in kinds:
-                yield name + '-sloppy', 'sloppy', path
+            for made in MADE:
+                if kind == 'clean' and made in kinds:
+                    yield f'{name}-{made}', made, path
 
 
 def relations_of(path):
