@@ -53,7 +53,7 @@ start_work (Lines *l, int width, int height)
   int shorter = width < height ? width : height;
 
   l->widest = shorter / 32 > 12 ? shorter / 32 : 12;
-  l->work = celd_alloc (celd_erosion_work (width, height, 2 * l->widest), 1);
+  l->work = celd_alloc (celd_erosion_work (width, 2 * l->widest), 1);
   for (int c = 0; c < 3; c++)
     if (!new_mask (width, height, &l->channel[c]))
       return CELD_NO_MEMORY;
@@ -234,28 +234,23 @@ measure_contrast (Lines *l, int radius)
 static CeldStatus
 find_faintest (Lines *l, int *faintest)
 {
-  CeldPlane  contrast = { 0 }, around = { 0 };
-  CeldStatus status = new_planes (l, &contrast, &around);
+  CeldPlane  contrast;
+  CeldStatus status = celd_plane_new (l->contrast.width, l->contrast.height, &contrast);
   float      least;
   int        apart = celd_ink_rows_apart (l->closed.width, l->closed.height);
 
-  if (status == CELD_OK)
-    {
-      memcpy (l->closed.data, l->contrast.data, pixels (l));
-      celd_dilate_bytes (&l->closed, COMPRESSED / 2, l->work);
-      for (int y = 0; y < contrast.height; y++)
-        if (abs (y % apart - apart / 2) <= 1) /* others are not looked at */
-          for (int x = 0; x < contrast.width; x++)
-            {
-              CELD_AT (&contrast, x, y) = CELD_AT (&l->contrast, x, y) / 255.0f;
-              CELD_AT (&around, x, y)   = CELD_AT (&l->closed, x, y) / 255.0f;
-            }
-      least     = celd_most (8 * celd_ink_noise (&contrast, 1), 6 * celd_ink_echo (&contrast, &around, 1));
-      *faintest = (int) celd_least (celd_most (255 * least, FAINTEST_LINE), 128);
-    }
+  if (status != CELD_OK)
+    return status;
+  memcpy (l->closed.data, l->contrast.data, pixels (l));
+  celd_dilate_bytes (&l->closed, COMPRESSED / 2, l->work);
+  for (int y = 0; y < contrast.height; y++)
+    if (abs (y % apart - apart / 2) <= 1) /* others are not looked at */
+      for (int x = 0; x < contrast.width; x++)
+        CELD_AT (&contrast, x, y) = CELD_AT (&l->contrast, x, y) / 255.0f;
+  least     = celd_most (8 * celd_ink_noise (&contrast, 1), 6 * celd_ink_echo (&contrast, &l->closed, 1));
+  *faintest = (int) celd_least (celd_most (255 * least, FAINTEST_LINE), 128);
   celd_free (contrast.data);
-  celd_free (around.data);
-  return status;
+  return CELD_OK;
 }
 
 /* Takes what lies narrow between lines out of the contrast. */
@@ -273,6 +268,17 @@ clear_narrow_fills (Lines *l, int radius, int faintest)
 }
 
 /* ------------------------------------------------------------------ strength */
+
+/* Whether one of the bytes is as large as this. */
+CELD_CLONES static bool
+any_reaches (const uint8_t *value, int n, int least)
+{
+  int most = 0;
+
+  for (int i = 0; i < n; i++)
+    most = value[i] > most ? value[i] : most;
+  return most >= least;
+}
 
 static uint32_t *
 tone_of (Lines *l, size_t pixel)
@@ -305,17 +311,20 @@ find_cores (Lines *l, int radius, int faintest)
 {
   memcpy (l->closed.data, l->contrast.data, pixels (l));
   celd_dilate_bytes (&l->closed, radius, l->work);
+  memset (l->level.data, 0, pixels (l));
   for (int y = 0; y < l->level.height; y++)
-    for (int x = 0; x < l->level.width; x++)
+    for (int left = 0; left < l->level.width; left += FLAT_RUN)
       {
-        bool core = is_core (l, x, y, faintest);
+        int right = left + FLAT_RUN < l->level.width ? left + FLAT_RUN : l->level.width;
 
-        CELD_AT (&l->level, x, y) = core ? CELD_AT (&l->contrast, x, y) : 0;
-        if (core)
-          {
-            l->cores++;
-            ++*tone_of (l, (size_t) y * l->level.stride + (size_t) x);
-          }
+        if (any_reaches (&CELD_AT (&l->contrast, left, y), right - left, faintest)) /* few do */
+          for (int x = left; x < right; x++)
+            if (is_core (l, x, y, faintest))
+              {
+                CELD_AT (&l->level, x, y) = CELD_AT (&l->contrast, x, y);
+                l->cores++;
+                ++*tone_of (l, (size_t) y * l->level.stride + (size_t) x);
+              }
       }
   celd_dilate_bytes (&l->level, 1, l->work);
 }
@@ -360,31 +369,54 @@ blur_tones (Lines *l)
         }
 }
 
-/* Replaces the level of each pixel by the strength of the line there. */
+/* Replaces the level of each pixel by the strength of the line there.  Where there is no core, pale contrast is what
+ * narrow fills leave along their ends, not a pale line. */
 CELD_CLONES static void
 find_strengths (const uint8_t *restrict contrast, int faintest, size_t n, uint8_t *restrict level)
 {
+  int least = faintest > 128 ? faintest : 128;
+
   for (size_t i = 0; i < n; i++)
     if (level[i])
       level[i] = (uint8_t) celd_least (255.0f * contrast[i] / level[i], 255);
     else
-      level[i] = contrast[i] < faintest ? 0 : contrast[i];
+      level[i] = contrast[i] < least ? 0 : contrast[i];
+}
+
+CELD_CLONES static void
+write_strengths (const uint8_t *restrict strength, int n, float *restrict luma)
+{
+  for (int x = 0; x < n; x++)
+    luma[x] = 1 - strength[x] / 255.0f;
+}
+
+/* Writes thick strokes that have the tone of lines: n pixels from (x,y) on. */
+static void
+write_thick (Lines *l, int x, int y, int n, float *luma)
+{
+  size_t first = (size_t) y * l->contrast.stride + (size_t) x;
+
+  if (any_reaches (l->contrast.data + first, n, 1))
+    for (int i = 0; i < n; i++)
+      if (l->contrast.data[first + (size_t) i] && 100 * (size_t) *tone_of (l, first + (size_t) i) >= l->cores)
+        luma[i] = 0;
 }
 
 /* Writes the lines by their strengths, and thick strokes in their tone. */
 static void
 write_lines (Lines *l, CeldDrawing *drawing)
 {
-  for (int y = 0; y < drawing->luma.height; y++)
-    for (int x = 0; x < drawing->luma.width; x++)
-      {
-        size_t i = (size_t) y * l->level.stride + (size_t) x;
-        bool   thick = l->contrast.data[i] && 100 * (size_t) *tone_of (l, i) >= l->cores;
+  int width = drawing->luma.width;
 
-        CELD_AT (&drawing->luma, x, y) = thick ? 0 : 1 - l->level.data[i] / 255.0f;
-        if (drawing->alpha.data)
+  for (int y = 0; y < drawing->luma.height; y++)
+    {
+      write_strengths (&CELD_AT (&l->level, 0, y), width, &CELD_AT (&drawing->luma, 0, y));
+      for (int x = 0; x < width; x += FLAT_RUN)
+        write_thick (l, x, y, width - x < FLAT_RUN ? width - x : FLAT_RUN, &CELD_AT (&drawing->luma, x, y));
+      if (drawing->alpha.data)
+        for (int x = 0; x < width; x++)
           CELD_AT (&drawing->alpha, x, y) = 1;
-      }
+    }
 }
 
 static CeldStatus

@@ -9,7 +9,9 @@
 
 #define CELD_SPECK 16 /* pixels: smaller regions do not stand on their own (chosen) */
 
-/* ------------------------------------------------------------------ paper.c: the kind of drawing, and its paper */
+#define CELD_RUN 256 /* pixels of a row that are looked at together; chosen */
+
+/* ------------------------------------------------------------------ paper.c: the kind of drawing, and its values */
 
 /* The mode to use for a drawing: never CELD_INK_AUTO, and CELD_INK_ALPHA only if the drawing has transparency. */
 CeldInkMode celd_ink_mode (const CeldDrawing *drawing, CeldInkMode mode);
@@ -21,7 +23,7 @@ bool celd_is_line_layer (const CeldDrawing *drawing);
  * celd_ink_mode; `value` has the drawing's size. */
 void celd_ink_values (const CeldDrawing *drawing, CeldInkMode mode, CeldPlane *value);
 
-/* The brightness of the paper around each pixel, > 0; `paper` has the size of `value`. */
+/* paper-levels.c: the brightness of the paper around each pixel, > 0; `paper` has the size of `value`. */
 CeldStatus celd_paper_levels (const CeldPlane *value, CeldPlane *paper);
 
 /* ------------------------------------------------------------------ ink-noise.c */
@@ -53,8 +55,8 @@ int celd_ink_rows_apart (int width, int height);
 float celd_ink_noise (const CeldPlane *contrast, int step);
 
 /* The strength of compression artefacts: the ripple that one of ten paper pixels near dark ink exceeds; 0 in a clean
- * picture.  `around` holds the largest contrast near each pixel, `dark` the contrast of dark strokes. */
-float celd_ink_echo (const CeldPlane *contrast, const CeldPlane *around, float dark);
+ * picture.  `around` holds the largest contrast near each pixel, 0 .. 255, `dark` the contrast of dark strokes. */
+float celd_ink_echo (const CeldPlane *contrast, const CeldMask *around, float dark);
 
 /* One pass of the binomial filter (1 2 1)/4 in both directions, in place; `spare`, of the same size, is overwritten. */
 void celd_ink_smooth (CeldPlane *plane, CeldPlane *spare);
@@ -130,11 +132,10 @@ CeldStatus celd_extend (int width, int height, int lanes, uint8_t *known, float 
 /* ------------------------------------------------------------------ morphology.c: with square windows */
 
 /* How many bytes of work space the functions below need for this radius, and for smaller ones. */
-size_t celd_erosion_work (int width, int height, int radius);
+size_t celd_erosion_work (int width, int radius);
 
 /* Replaces each value by the least (dilation: largest) of those in the picture at most `radius` away in x and in y.
  * Masks are tight planes. */
-void celd_erode        (CeldPlane *plane, int radius, void *work);
 void celd_erode_bytes  (CeldMask *mask, int radius, void *work);
 void celd_dilate_bytes (CeldMask *mask, int radius, void *work);
 /* Dilation and then erosion; `closed` must not alias `mask`. */
@@ -162,9 +163,9 @@ void celd_clear_narrow_fills (CeldMask *luma, int radius, int faintest, void *wo
                               CeldMask *contrast);
 
 /* thick-lines.c: sets `thick` to 1 where some channel has at least half of the contrast of black against its closing by
- * `radius`, and none is lighter than its opening, by a contrast of `faintest`, 0 .. 255; else to 0.  `work` is for this
- * radius, `spare` is overwritten; all have one size.  Channels are changed only meanwhile. */
-CeldStatus celd_thick_lines (CeldMask channel[3], int radius, int faintest, const CeldHost *host, void *work,
+ * `radius`, and none is lighter than its opening, by a contrast of `faintest`, 1 .. 254; else to 0.  `work` is for this
+ * radius, `spare` is overwritten; all have one size. */
+CeldStatus celd_thick_lines (const CeldMask channel[3], int radius, int faintest, const CeldHost *host, void *work,
                              CeldMask *spare, CeldMask *thick);
 
 /* ------------------------------------------------------------------ components.c: connected components */

@@ -43,7 +43,7 @@ celd_ink_noise (const CeldPlane *contrast, int step)
 }
 
 float
-celd_ink_echo (const CeldPlane *contrast, const CeldPlane *around, float dark)
+celd_ink_echo (const CeldPlane *contrast, const CeldMask *around, float dark)
 {
   size_t of[CELD_INK_BINS] = { 0 }, all = 0, above = 0;
   int    bin = CELD_INK_BINS - 1, apart = celd_ink_rows_apart (contrast->width, contrast->height);
@@ -55,7 +55,7 @@ celd_ink_echo (const CeldPlane *contrast, const CeldPlane *around, float dark)
         float        beside = celd_most (celd_most (up[-1], up[0]), celd_most (up[1], c[-1]));
 
         beside = celd_most (beside, celd_most (celd_most (c[1], down[-1]), celd_most (down[0], down[1])));
-        if (CELD_AT (around, x, y) < 0.7f * dark || celd_most (beside, c[0]) > 0.25f * dark)
+        if (CELD_AT (around, x, y) < 255 * 0.7f * dark || celd_most (beside, c[0]) > 0.25f * dark)
           continue;
         of[(int) (0.5f * fabsf (c[-1] - 2 * c[0] + c[1]) * (CELD_INK_BINS - 1))]++;
         all++;

@@ -90,6 +90,50 @@ measure_ink (const Case *c)
   print_number ("ink", median (time, c->runs));
 }
 
+/* The drawing over fills in the colours of the truth; white where these are unknown. */
+static CeldPaint
+coloured_page (const Case *c)
+{
+  CeldPaint art = { c->width, c->height, (size_t) c->width, malloc (4 * c->n) };
+
+  if (!art.data)
+    must (CELD_NO_MEMORY);
+  for (size_t i = 0; i < c->n; i++)
+    {
+      const uint8_t *fill = c->truth.data + 4 * i;
+
+      for (int k = 0; k < 3; k++)
+        art.data[4 * i + k] = (uint8_t) ((fill[3] ? fill[k] : 255) * c->drawing.luma.data[i] + 0.5f);
+      art.data[4 * i + 3] = 255;
+    }
+  return art;
+}
+
+/* The lines of a coloured page and their ink. */
+static void
+measure_coloured_ink (const Case *c)
+{
+  CeldPaint art = coloured_page (c);
+  CeldPlane luma, ink;
+  double    time[MOST_RUNS];
+
+  must (celd_plane_new (c->width, c->height, &luma));
+  must (celd_plane_new (c->width, c->height, &ink));
+  for (int i = 0; i < c->runs; i++)
+    {
+      CeldDrawing drawing = { .luma = luma };
+      double      start = seconds ();
+
+      must (celd_coloured_lines (&art, CELD_INK_LINES, NULL, &drawing));
+      must (celd_ink (&drawing, CELD_INK_LINES, NULL, &ink));
+      time[i] = seconds () - start;
+    }
+  print_number ("coloured ink", median (time, c->runs));
+  celd_free (luma.data);
+  celd_free (ink.data);
+  free (art.data);
+}
+
 static void
 measure_basins (const Case *c, const CeldPlane *ink)
 {
@@ -412,6 +456,7 @@ main (int argc, char **argv)
   printf ("{ \"width\": %d, \"height\": %d", c.width, c.height);
   print_number ("brush", brush_width (&c.scribbles));
   measure_ink (&c);
+  measure_coloured_ink (&c);
   session = open_session (&c, &settings);
   must (celd_session_ink (session, NULL, &ink, NULL));
   measure_basins (&c, &ink);

@@ -52,6 +52,7 @@ def share(settings, figure):
 TABLES = [
     ('Times in milliseconds', [
         ('ink', '.0f', milliseconds('ink')),
+        ('coloured', '.0f', milliseconds('coloured ink')),
         ('read', '.0f', milliseconds('engine read')),
         ('build', '.1f', milliseconds('build')),
         ('build/MP', '.1f', lambda r: 1000 * r['build'] / r['megapixels']),

@@ -196,6 +196,34 @@ narrow_fills_are_no_lines (void)
     }
 }
 
+/* Fills that become wide between two lines: nothing crosses them where they have the width of the window. */
+static void
+wedges_have_no_cross_lines (void)
+{
+  static const Tone dark = { 0.12f, 0.3f, 0.67f }, teal = { 0.15f, 0.5f, 0.55f }, page = { 0.93f, 0.96f, 1 };
+
+  for (int slope = 8; slope <= 40; slope += 4)
+    {
+      int stains = 0;
+
+      for (int y = 0; y < SIDE; y++)
+        for (int x = 0; x < SIDE; x++)
+          {
+            float half = 0.01f * (float) slope * (float) (x - 5), from = (float) y - 100.3f;
+            float line = fminf (fabsf (from - half), fabsf (from + half));
+            Tone  fill = from < -fabsf (half) ? teal : from > fabsf (half) ? page : x < 5 ? teal : dark;
+
+            put (x, y, mixed (fill, brown, fminf (fmaxf (0.5f * BREADTH + 0.5f - line, 0), 1)));
+          }
+      CHECK (find (CELD_INK_LINES, NULL) == CELD_OK);
+      for (int y = 0; y < SIDE; y++)
+        for (int x = 15; x < SIDE - 15; x++)
+          stains += fabsf ((float) y - 100.3f) < 0.01f * (float) slope * (float) (x - 5) - 5 &&
+                    luma_of[y * SIDE + x] < 0.95f;
+      CHECK (stains == 0);
+    }
+}
+
 /* A line in a lighter colour than those on both of its sides. */
 static void
 pale_lines_stay_between_dark_ones (void)
@@ -299,6 +327,7 @@ main (void)
   RUN (lines_may_be_lighter);
   RUN (thick_strokes_are_lines_and_areas_are_not);
   RUN (narrow_fills_are_no_lines);
+  RUN (wedges_have_no_cross_lines);
   RUN (pale_lines_stay_between_dark_ones);
   RUN (grain_makes_no_lines);
   RUN (transparent_is_white);

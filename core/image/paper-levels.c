@@ -1,0 +1,266 @@
+/* How light the paper of a drawing is.
+ *
+ * The paper level is a high quantile in each tile; tiles without paper (solid ink) are filled in from their neighbours;
+ * between tiles it is interpolated bilinearly.  White paper has a level of exactly 1.  Cost: O(pixels).
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "image/image.h"
+
+#include <math.h>
+#include <string.h>
+
+#define DARKEST  1e-3f         /* least paper level, because values are divided by it; chosen */
+#define ABREAST  8             /* sums that are formed side by side; chosen */
+#define EDGE_BIN CELD_INK_BINS /* of values beside which there is an edge */
+
+typedef struct { int side, width, height; float *level, *spare; } Tiles;
+
+/* The bins of values that differ little from the one to the left of them, EDGE_BIN for others. */
+CELD_CLONES static void
+find_flat_bins (const float *restrict value, const float *restrict before, int n, uint16_t *restrict bin)
+{
+  for (int x = 0; x < n; x++)
+    bin[x] = fabsf (value[x] - before[x]) > 0.06f ? EDGE_BIN : (uint16_t) (value[x] * (CELD_INK_BINS - 1) + 0.5f);
+}
+
+CELD_CLONES static void
+keep_bin (const float *restrict value, const uint16_t *restrict bin, int n, uint16_t which, float *restrict kept)
+{
+  for (int x = 0; x < n; x++)
+    kept[x] = bin[x] == which ? value[x] : 0;
+}
+
+/* The sum of the values of a piece, at most CELD_RUN, that are in a bin. */
+static float
+sum_of_bin (const float *value, const uint16_t *bin, int n, uint16_t which)
+{
+  float kept[CELD_RUN] = { 0 }, sum[ABREAST] = { 0 };
+
+  keep_bin (value, bin, n, which, kept);
+  for (int x = 0; x < n; x += ABREAST)
+    for (int k = 0; k < ABREAST; k++)
+      sum[k] += kept[x + k];
+  return (sum[0] + sum[1]) + (sum[2] + sum[3]) + ((sum[4] + sum[5]) + (sum[6] + sum[7]));
+}
+
+/* A piece of a row of a tile, with the bins of its values. */
+typedef struct { int n; const float *value; uint16_t bin[CELD_RUN]; } TileRun;
+
+static void
+take_tile_run (const CeldPlane *value, int x, int y, int end, TileRun *piece)
+{
+  piece->n = end - x < CELD_RUN ? end - x : CELD_RUN;
+  piece->value = &CELD_AT (value, x, y);
+  find_flat_bins (piece->value, piece->value - (x > 0), 1, piece->bin);
+  find_flat_bins (piece->value + 1, piece->value, piece->n - 1, piece->bin + 1);
+}
+
+/* The most frequent value among the lightest fifth of a tile's pixels, without edges; 0 if there are only edges. */
+static float
+upper_value (const CeldPlane *value, int left, int top, int side)
+{
+  unsigned of[CELD_INK_BANKS][EDGE_BIN + 1] = { { 0 } }, all = 0, above = 0;
+  int      right = left + side < value->width ? left + side : value->width, bin = CELD_INK_BINS - 1, fullest;
+  int      bottom = top + side < value->height ? top + side : value->height;
+  double   sum = 0;
+  TileRun    piece;
+
+  for (int y = top; y < bottom; y++)
+    for (int x = left; x < right; x += piece.n)
+      {
+        take_tile_run (value, x, y, right, &piece);
+        for (int i = 0; i < piece.n; i++)
+          of[i % CELD_INK_BANKS][piece.bin[i]]++;
+      }
+  for (int i = 0; i < CELD_INK_BINS; i++)
+    {
+      for (int k = 1; k < CELD_INK_BANKS; k++)
+        of[0][i] += of[k][i];
+      all += of[0][i];
+    }
+  if (!all)
+    return 0;
+  for (fullest = bin; 5 * (above += of[0][bin]) < all; bin--)
+    if (of[0][bin] > of[0][fullest])
+      fullest = bin;
+  if (of[0][bin] > of[0][fullest])
+    fullest = bin;
+  for (int y = top; y < bottom; y++)
+    for (int x = left; x < right; x += piece.n)
+      {
+        take_tile_run (value, x, y, right, &piece);
+        sum += (double) sum_of_bin (piece.value, piece.bin, piece.n, (uint16_t) fullest);
+      }
+  return (float) (sum / of[0][fullest]);
+}
+
+/* Keeps the tiles whose level can be reached from the brightest tiles in small steps, as in shadows and vignettes; sets
+ * the others, which are inside solid ink, to 0. */
+static void
+drop_inked_tiles (Tiles *t)
+{
+  float brightest = 0;
+  bool  moved = true;
+
+  for (int i = 0; i < t->width * t->height; i++)
+    brightest = fmaxf (brightest, t->level[i]);
+  for (int i = 0; i < t->width * t->height; i++)
+    t->spare[i] = t->level[i] >= 0.9f * brightest ? t->level[i] : 0;
+  while (moved)
+    {
+      moved = false;
+      for (int y = 0; y < t->height; y++)
+        for (int x = 0; x < t->width; x++)
+          {
+            int   i = y * t->width + x;
+            float around = 0;
+
+            if (t->spare[i] > 0)
+              continue;
+            around = fmaxf (around, x > 0 ? t->spare[i - 1] : 0);
+            around = fmaxf (around, x < t->width - 1 ? t->spare[i + 1] : 0);
+            around = fmaxf (around, y > 0 ? t->spare[i - t->width] : 0);
+            around = fmaxf (around, y < t->height - 1 ? t->spare[i + t->width] : 0);
+            if (around > 0 && t->level[i] >= 0.8f * around)
+              {
+                t->spare[i] = t->level[i];
+                moved = true;
+              }
+          }
+    }
+  memcpy (t->level, t->spare, (size_t) t->width * (size_t) t->height * sizeof *t->level);
+}
+
+/* Mean of the known tiles among the 3x3 around (x,y); 0 if none is known. */
+static float
+mean_around (const Tiles *t, int x, int y)
+{
+  float sum = 0, n = 0;
+
+  for (int v = y > 0 ? y - 1 : 0; v <= y + 1 && v < t->height; v++)
+    for (int u = x > 0 ? x - 1 : 0; u <= x + 1 && u < t->width; u++)
+      if (t->level[v * t->width + u] > 0)
+        {
+          sum += t->level[v * t->width + u];
+          n++;
+        }
+  return n > 0 ? sum / n : 0;
+}
+
+/* Fills in unknown tiles from known neighbours until none is left. */
+static void
+fill_tiles (Tiles *t)
+{
+  size_t bytes = (size_t) t->width * (size_t) t->height * sizeof *t->level;
+  bool   unknown = true;
+
+  while (unknown)
+    {
+      unknown = false;
+      for (int y = 0; y < t->height; y++)
+        for (int x = 0; x < t->width; x++)
+          {
+            int i = y * t->width + x;
+
+            t->spare[i] = t->level[i] > 0 ? t->level[i] : mean_around (t, x, y);
+            unknown = unknown || t->spare[i] <= 0;
+          }
+      memcpy (t->level, t->spare, bytes);
+    }
+}
+
+/* Smooths the tiles' levels; linear slopes stay as they are, also at the picture's edge. */
+static void
+smooth_tiles (Tiles *t)
+{
+  for (int y = 0; y < t->height; y++)
+    for (int x = 0; x < t->width; x++)
+      {
+        const float *l = t->level + y * t->width + x;
+
+        t->spare[y * t->width + x] = x > 0 && x < t->width - 1 ? 0.25f * (l[-1] + l[1]) + 0.5f * l[0] : l[0];
+      }
+  for (int y = 0; y < t->height; y++)
+    for (int x = 0; x < t->width; x++)
+      {
+        const float *l = t->spare + y * t->width + x;
+        bool         inside = y > 0 && y < t->height - 1;
+
+        t->level[y * t->width + x] = inside ? 0.25f * (l[-t->width] + l[t->width]) + 0.5f * l[0] : l[0];
+      }
+}
+
+/* The first of the two tiles, of `n` in a row, between whose middles a pixel lies; *share is the weight of the second,
+ * outside [0,1] beyond the middles of the outermost tiles: there the slope continues. */
+static int
+tile_before (int pixel, int side, int n, float *share)
+{
+  float place = ((float) pixel + 0.5f) / (float) side - 0.5f;
+  int   tile = place > 0 ? (int) place : 0;
+
+  if (tile > n - 2)
+    tile = n > 1 ? n - 2 : 0;
+  *share = n > 1 ? place - (float) tile : 0;
+  return tile;
+}
+
+/* Interpolates bilinearly between the middles of tiles; the levels of one row of pixels are kept in t->spare. */
+static void
+interpolate_tiles (const Tiles *t, CeldPlane *paper)
+{
+  float inverse = 1 / (float) t->side;
+
+  for (int y = 0; y < paper->height; y++)
+    {
+      float        v;
+      const float *l = t->level + tile_before (y, t->side, t->height, &v) * t->width;
+      const float *below = t->height > 1 ? l + t->width : l;
+      float       *level = t->spare, *row = &CELD_AT (paper, 0, y);
+
+      for (int i = 0; i < t->width; i++)
+        level[i] = l[i] + v * (below[i] - l[i]);
+      for (int i = 0, x = 0; x < paper->width; i++)
+        {
+          bool  last = i >= t->width - 2;
+          int   end = last ? paper->width : (2 * i + 3) * t->side / 2;
+          float rise = t->width > 1 ? (level[i + 1] - level[i]) * inverse : 0;
+          float middle = ((float) i + 0.5f) * (float) t->side - 0.5f;
+
+          for (; x < end; x++)
+            {
+              float value = level[i] + ((float) x - middle) * rise;
+
+              row[x] = value > DARKEST ? value : DARKEST;
+            }
+        }
+    }
+}
+
+CeldStatus
+celd_paper_levels (const CeldPlane *value, CeldPlane *paper)
+{
+  int        smaller = value->width < value->height ? value->width : value->height;
+  Tiles      t = { .side = smaller / 24 < 16 ? 16 : smaller / 24 };
+  CeldStatus status = CELD_NO_MEMORY;
+
+  t.width = (value->width + t.side - 1) / t.side;
+  t.height = (value->height + t.side - 1) / t.side;
+  t.level = celd_alloc ((size_t) t.width * (size_t) t.height, sizeof *t.level);
+  t.spare = celd_alloc ((size_t) t.width * (size_t) t.height, sizeof *t.spare);
+  if (!t.level || !t.spare)
+    goto done;
+  for (int y = 0; y < t.height; y++)
+    for (int x = 0; x < t.width; x++)
+      t.level[y * t.width + x] = fmaxf (upper_value (value, x * t.side, y * t.side, t.side), DARKEST);
+  drop_inked_tiles (&t);
+  fill_tiles (&t);
+  smooth_tiles (&t);
+  interpolate_tiles (&t, paper);
+  status = CELD_OK;
+
+done:
+  celd_free (t.level);
+  celd_free (t.spare);
+  return status;
+}
