@@ -33,7 +33,8 @@ typedef struct
   CeldMask        channel[3];
   CeldMask        closed, contrast, level;
   void           *work;        /* of celd_erode_bytes */
-  int             widest;      /* radius of the widest window */
+  int             widest;      /* radius of the widest window for thick strokes among thinner lines */
+  int             broadest;    /* radius of the window for lines that are all broad */
   uint32_t        tone[TONES * TONES * TONES]; /* how many cores of lines have a tone, or one next to it */
   uint32_t        cores;
 } Lines;
@@ -53,7 +54,8 @@ start_work (Lines *l, int width, int height)
   int shorter = width < height ? width : height;
 
   l->widest = shorter / 32 > 12 ? shorter / 32 : 12;
-  l->work = celd_alloc (celd_erosion_work (width, 2 * l->widest), 1);
+  l->broadest = shorter / 16 > 12 ? shorter / 16 : 12;
+  l->work = celd_alloc (celd_erosion_work (width, 2 * l->broadest), 1);
   for (int c = 0; c < 3; c++)
     if (!new_mask (width, height, &l->channel[c]))
       return CELD_NO_MEMORY;
@@ -173,11 +175,11 @@ find_polarity (Lines *l, int *radius)
   CeldStatus   status;
 
   take_luma (l->channel[0].data, l->channel[1].data, l->channel[2].data, pixels (l), l->level.data);
-  status = celd_line_radius (&l->level, l->widest, &first, l->work, &l->closed, radius, &dark);
+  status = celd_line_radius (&l->level, l->broadest, &first, l->work, &l->closed, radius, &dark);
   if (status != CELD_OK || dark >= 0.95f)
     return status;
   celd_invert_bytes (&l->level);
-  status = celd_line_radius (&l->level, l->widest, &second, l->work, &l->closed, &other, &light);
+  status = celd_line_radius (&l->level, l->broadest, &second, l->work, &l->closed, &other, &light);
   if (status != CELD_OK || light <= dark)
     return status;
   for (int c = 0; c < 3; c++)

@@ -6,7 +6,7 @@
 
 #include <math.h>
 
-#define ENOUGH_NOISE ((size_t) 1 << 17) /* pixels: more of them do not change a quantile by which noise is known; chosen */
+#define ENOUGH_NOISE ((size_t) 1 << 17) /* pixels: more do not change a quantile by which noise is known; chosen */
 
 /* Odd, because compressed pictures repeat themselves every 8 rows. */
 int

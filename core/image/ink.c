@@ -237,7 +237,7 @@ nearest_contrast (const CeldPlane *contrast, int x, int y)
   return CELD_AT (contrast, x, y);
 }
 
-/* Whether there is paper on both sides of a pixel, and what lies between has less ink than a black line a pixel wide. */
+/* Whether there is paper on both sides of a pixel, and between less ink than that of a black line a pixel wide. */
 static bool
 is_thin_ridge (const CeldPlane *contrast, int x, int y, float dark)
 {
@@ -258,8 +258,8 @@ is_thin_ridge (const CeldPlane *contrast, int x, int y, float dark)
   return false;
 }
 
-/* Whether the pixel is on a line thinner than a pixel, which is pale because it covers its pixels in part; not at the end
- * or the corner of a dark stroke, where something around is much darker. */
+/* Whether the pixel is on a line thinner than a pixel, which is pale because it covers its pixels in part; not at the
+ * end or the corner of a dark stroke, where something around is much darker. */
 static bool
 is_hairline (const CeldPlane *contrast, int x, int y, float dark)
 {
@@ -346,8 +346,8 @@ write_dark (const float *restrict contrast, float dark, int n, float *restrict i
     ink[x] = 1 - celd_least (contrast[x] / dark, 1);
 }
 
-/* Darkens ink where a stroke is pale, to what its own level makes of it.  `full` is the fraction of its level from which
- * a stroke is full ink. */
+/* Darkens ink where a stroke is pale, to what its own level makes of it.  `full` is the fraction of its level from
+ * which a stroke is full ink. */
 CELD_CLONES static void
 write_pale (const float *restrict contrast, const uint8_t *restrict area, const uint8_t *restrict level, float full,
             int n, float *restrict ink)

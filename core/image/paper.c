@@ -134,6 +134,12 @@ count_bins (const uint8_t *bin, int n, Banks *banks)
     banks->of[x % CELD_INK_BANKS][bin[x]]++;
 }
 
+static int
+within (int i, int least, int most)
+{
+  return i < least ? least : i < most ? i : most;
+}
+
 /* Adds the values of a row to histograms of the whole picture and of a band along its edge. */
 static void
 count_row (const CeldDrawing *drawing, int y, int band, Banks *whole, Banks *frame)
@@ -144,8 +150,7 @@ count_row (const CeldDrawing *drawing, int y, int band, Banks *whole, Banks *fra
   for (int left = 0; left < width; left += CELD_RUN)
     {
       int     n = width - left < CELD_RUN ? width - left : CELD_RUN;
-      int     inner = band - left < 0 ? 0 : band - left < n ? band - left : n;                  /* first off the left band */
-      int     outer = width - band - left < inner ? inner : width - band - left < n ? width - band - left : n;
+      int     inner = within (band - left, 0, n), outer = within (width - band - left, inner, n); /* off the bands */
       float   value[CELD_RUN];
       uint8_t bin[CELD_RUN];
 

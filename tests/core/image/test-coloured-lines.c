@@ -237,6 +237,40 @@ pale_lines_stay_between_dark_ones (void)
     CHECK (luma_of[22 * SIDE + x] < 0.05f && luma_of[30 * SIDE + x] < 0.6f && luma_of[26 * SIDE + x] > 0.95f);
 }
 
+/* Icons have lines a tenth of the page wide: all of them, so that they are no thick strokes among thinner ones. */
+static void
+broad_lines_are_lines (void)
+{
+  enum { WIDE = 512, LINE = 45 };
+  uint8_t    *rgba = malloc (WIDE * WIDE * 4);
+  float      *luma = malloc (WIDE * WIDE * sizeof *luma);
+  CeldDrawing drawing = { .luma = { WIDE, WIDE, WIDE, luma } };
+  static const uint8_t fill[][3] = { { 237, 245, 255 }, { 110, 165, 130 }, { 190, 80, 130 } }, dark[] = { 64, 31, 20 };
+  int         wrong = 0;
+
+  for (int turn = 0; turn < 2; turn++) /* first drawn, then compared */
+    {
+      if (turn)
+        CHECK (celd_coloured_lines (&(CeldPaint) { WIDE, WIDE, WIDE, rgba }, CELD_INK_LINES, NULL, &drawing) == CELD_OK);
+      for (int y = 0; y < WIDE; y++)
+        for (int x = 0; x < WIDE; x++)
+          {
+            int  u = abs (x - WIDE / 2), v = abs (y - WIDE / 2), out = u > v ? u : v, i = y * WIDE + x;
+            bool line = out <= 200 && (out > 200 - LINE || u <= LINE / 2);
+
+            if (turn)
+              wrong += line != (luma[i] < 0.5f);
+            else
+              memcpy (rgba + 4 * i, line ? dark : fill[out > 200 ? 0 : x < WIDE / 2 ? 1 : 2], 3);
+            if (!turn)
+              rgba[4 * i + 3] = 255;
+          }
+    }
+  CHECK (wrong == 0);
+  free (rgba);
+  free (luma);
+}
+
 static void
 grain_makes_no_lines (void)
 {
@@ -329,6 +363,7 @@ main (void)
   RUN (narrow_fills_are_no_lines);
   RUN (wedges_have_no_cross_lines);
   RUN (pale_lines_stay_between_dark_ones);
+  RUN (broad_lines_are_lines);
   RUN (grain_makes_no_lines);
   RUN (transparent_is_white);
   RUN (line_art_stays);
