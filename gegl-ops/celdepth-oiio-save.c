@@ -86,7 +86,10 @@ save (GeglProperties *o, GeglBuffer *input, const GeglRectangle *roi, CeldIoErro
   bool  written;
 
   if (!pixels)
-    return false;
+    {
+      g_strlcpy (error->text, "There is not enough memory.", sizeof error->text);
+      return false;
+    }
   gegl_buffer_get (input, roi, 1.0, babl_format (writers[o->content].format), pixels,
                    GEGL_AUTO_ROWSTRIDE, GEGL_ABYSS_NONE);
   written = writers[o->content].write (o, roi->width, roi->height, pixels, error);
@@ -94,22 +97,30 @@ save (GeglProperties *o, GeglBuffer *input, const GeglRectangle *roi, CeldIoErro
   return written;
 }
 
+static bool
+check (const GeglProperties *o, const GeglRectangle *roi, CeldIoError *error)
+{
+  if (!celd_io_load (error))
+    return false;
+  if (!o->path || !celd_io_can_write (o->path))
+    g_snprintf (error->text, sizeof error->text, "'%s' cannot be written: its name must end in .exr, .png or .tif.",
+                o->path ? o->path : "");
+  else if (o->content == CELD_SAVE_DEPTH && !(o->near_level > o->far_level))
+    g_strlcpy (error->text, "The near level must be larger than the far level.", sizeof error->text);
+  else if (gegl_rectangle_is_infinite_plane (roi))
+    g_strlcpy (error->text, "The input is infinitely large. Crop it first.", sizeof error->text);
+  else
+    return true;
+  return false;
+}
+
 static gboolean
 process (GeglOperation *operation, GeglBuffer *input, const GeglRectangle *roi, gint level)
 {
   GeglProperties *o = GEGL_PROPERTIES (operation);
-  CeldIoError     error = { "There is not enough memory." };
-  bool            written = false;
+  CeldIoError     error;
+  bool            written = check (o, roi, &error) && save (o, input, roi, &error);
 
-  if (!o->path || !celd_io_can_write (o->path))
-    g_snprintf (error.text, sizeof error.text, "'%s' cannot be written: its name must end in .exr, .png or .tif.",
-                o->path ? o->path : "");
-  else if (o->content == CELD_SAVE_DEPTH && !(o->near_level > o->far_level))
-    g_strlcpy (error.text, "The near level must be larger than the far level.", sizeof error.text);
-  else if (gegl_rectangle_is_infinite_plane (roi))
-    g_strlcpy (error.text, "The input is infinitely large. Crop it first.", sizeof error.text);
-  else
-    written = save (o, input, roi, &error);
   if (!written)
     g_message ("Save Depth: %s", error.text);
   return written;

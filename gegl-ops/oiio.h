@@ -1,5 +1,5 @@
-/* Shared by the two operations that use OpenImageIO.  They are in a module of their own, because loading OpenImageIO
- * takes a third of a second in every program that uses GEGL.
+/* Shared by the two operations that use OpenImageIO.  OpenImageIO is loaded when one of them first reads or
+ * writes a file.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -8,7 +8,7 @@
 
 #include <gegl-plugin.h>
 
-#include "celdepth-io.h"
+#include "on-demand.h"
 
 typedef enum { CELD_LOAD_COLOURS, CELD_LOAD_DEPTH } CeldLoadContent;
 typedef enum { CELD_SAVE_COLOURS, CELD_SAVE_DEPTH, CELD_SAVE_NORMALS, CELD_SAVE_LIGHT } CeldSaveContent;

@@ -272,6 +272,29 @@ remove_folder (void)
   g_free (folder);
 }
 
+/* ------------------------------------------------------------------ the start of hosts */
+
+static gboolean
+is_loaded (const char *library)
+{
+  char    *maps = NULL;
+  gboolean loaded = g_file_get_contents ("/proc/self/maps", &maps, NULL, NULL) && strstr (maps, library);
+
+  g_free (maps);
+  return loaded;
+}
+
+/* Every host pays at its start for what modules load.  In this program nothing was read or written before. */
+static void
+hosts_start_without_libraries_for_files (void)
+{
+  CHECK (gegl_has_operation ("celdepth:oiio-save"));
+  CHECK (is_loaded ("celdepth-oiio"));
+  CHECK (!is_loaded ("libOpenImageIO"));
+  save (drawing, "first.exr", NULL);
+  CHECK (is_loaded ("libOpenImageIO"));
+}
+
 int
 main (int argc, char **argv)
 {
@@ -283,6 +306,7 @@ main (int argc, char **argv)
   g_setenv ("CELDEPTH_TEST_FOLDER", folder, TRUE);
   make_page ();
   start_to_listen ();
+  RUN (hosts_start_without_libraries_for_files);
   RUN (depth_is_read_as_it_was_written);
   RUN (normals_keep_their_numbers);
   RUN (labels_keep_their_colours);
