@@ -16,10 +16,14 @@ struct CeldPipeline
   CeldColours      lit, enhanced;     /* data NULL: not made */
   const CeldOrder *order;             /* of the session; NULL: not made */
   CeldLayers      *layers;            /* NULL: not cut */
+  CeldColours      view[2];           /* of the left and the right eye; data NULL: not made */
+  char            *note;              /* what the artist should know beside the problems of the session; NULL: nothing */
 };
 
 #define OF(picture) (1u << CELD_PICTURE_##picture)
 
+/* Sets *error to a sentence for the artist; FALSE. */
+gboolean celd_pipeline_fail (GError **error, const char *format, ...) G_GNUC_PRINTF (2, 3);
 /* TRUE if the status is CELD_OK; else *error has its text. */
 gboolean celd_pipeline_try (CeldStatus status, GError **error);
 
@@ -38,6 +42,8 @@ typedef struct
   double               from, part;
 } CeldPipelineReport;
 bool celd_pipeline_report (void *report, double done);
+/* The same for steps that have progress of their own; a CeldPipelineProgress. */
+gboolean celd_pipeline_report_steps (gpointer report, double done, const char *step);
 
 /* Replaces a picture (data may be NULL) by a copy of the art. */
 CeldStatus celd_pipeline_copy_art (const CeldPipeline *p, CeldColours *copy);

@@ -128,23 +128,15 @@ cut (CeldPipeline *p, CeldStore store, const CeldHost *host)
   return status;
 }
 
-/* Progress of all before the cut as a part of the whole. */
-static gboolean
-report_before (gpointer data, double done, const char *step)
-{
-  const CeldPipelineReport *r = data;
-
-  return !r->progress || r->progress (r->data, BEFORE_CUTTING * done, step);
-}
-
 gboolean
 celd_pipeline_cut (CeldPipeline *p, int bits, CeldPipelineProgress progress, gpointer data, GError **error)
 {
+  CeldPipelineReport before = { progress, data, NULL, 0, BEFORE_CUTTING };
   CeldPipelineReport r = { progress, data, "Cutting the layers", BEFORE_CUTTING, 1 - BEFORE_CUTTING };
   CeldHost           host = { celd_pipeline_report, celd_gegl_each, &r };
   CeldStore          store = bits <= 8 ? CELD_STORE_8_BIT_SRGB : CELD_STORE_FLOAT;
 
-  return celd_pipeline_make (p, OF (LEVELS), report_before, &r, error) &&
+  return celd_pipeline_make (p, OF (LEVELS), celd_pipeline_report_steps, &before, error) &&
          celd_pipeline_try (cut (p, store, &host), error);
 }
 
@@ -195,5 +187,7 @@ celd_pipeline_problems (CeldPipeline *p)
 
   celd_problems_append (message, celd_session_problems (p->session), celd_session_palette (p->session),
                         celd_session_relations (p->session), p->order);
+  if (p->note)
+    g_string_append_printf (message, "%s%s", message->len ? "\n" : "", p->note);
   return g_string_free (message, message->len == 0);
 }

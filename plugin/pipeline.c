@@ -17,8 +17,8 @@ G_DEFINE_QUARK (celd-pipeline-error, celd_pipeline_error)
 
 /* ------------------------------------------------------------------ errors and memory */
 
-static gboolean
-fail (GError **error, const char *format, ...)
+gboolean
+celd_pipeline_fail (GError **error, const char *format, ...)
 {
   va_list arguments;
 
@@ -76,20 +76,20 @@ static gboolean
 check_input (const CeldPipelineInput *input, GError **error)
 {
   if (input->width < 1 || input->height < 1 || input->width > CELD_MAX_SIDE || input->height > CELD_MAX_SIDE)
-    return fail (error, "The image has %d x %d pixels; the limit is %d pixels a side. Scale it down first.",
+    return celd_pipeline_fail (error, "The image has %d x %d pixels; the limit is %d pixels a side. Scale it down first.",
                  input->width, input->height, CELD_MAX_SIDE);
   if (!input->layer[CELD_LAYER_DRAWING].buffer)
-    return fail (error, "There is no drawing. Choose its layer.");
+    return celd_pipeline_fail (error, "There is no drawing. Choose its layer.");
   for (int role = 0; role < CELD_N_LAYERS; role++)
     {
       const CeldPipelineLayer *layer = &input->layer[role];
       const GeglRectangle     *r = layer->buffer ? gegl_buffer_get_extent (layer->buffer) : NULL;
 
       if (r && !gegl_rectangle_intersect (NULL, r, GEGL_RECTANGLE (-layer->x, -layer->y, input->width, input->height)))
-        return fail (error, "The layer with the %s lies outside the image. Move it over the image.", layer_names[role]);
+        return celd_pipeline_fail (error, "The layer with the %s lies outside the image. Move it over the image.", layer_names[role]);
       for (int other = 0; r && other < role; other++)
         if (layer->buffer == input->layer[other].buffer)
-          return fail (error, "The same layer is chosen as %s and as %s. Give each a layer of its own.",
+          return celd_pipeline_fail (error, "The same layer is chosen as %s and as %s. Give each a layer of its own.",
                        layer_names[other], layer_names[role]);
     }
   return TRUE;
@@ -163,8 +163,21 @@ set_relations (CeldPipeline *p, const char *relations, GError **error)
 
   if (status != CELD_BAD_RELATION)
     return celd_pipeline_try (status, error);
-  return fail (error, "The relations cannot be read: line %d, column %d has %s where %s was expected. An example of a "
+  return celd_pipeline_fail (error, "The relations cannot be read: line %d, column %d has %s where %s was expected. An example of a "
                "relation is: 120,80 > 300,95", place.line, place.column, place.found, place.expected);
+}
+
+/* The host makes the path of its own items, so that what is wrong with it cannot be pointed at. */
+static gboolean
+set_arrow_path (CeldPipeline *p, const char *path, GError **error)
+{
+  CeldTextError place = { 0 };
+  CeldStatus    status = celd_session_set_arrow_path (p->session, path, &place);
+
+  if (status != CELD_BAD_RELATION)
+    return celd_pipeline_try (status, error);
+  return celd_pipeline_fail (error, "The path with arrows cannot be read: it has %s where %s was expected.", place.found,
+                             place.expected);
 }
 
 static gboolean
@@ -177,7 +190,7 @@ check_lines (CeldPipeline *p, GError **error)
     return TRUE;
   return celd_pipeline_try (celd_session_ink (p->session, &host, &ink, NULL), error) &&
          (celd_ink_has_lines (&ink) ||
-          fail (error, "The layer with the drawing has no lines: it is blank, or its lines are too faint. Choose "
+          celd_pipeline_fail (error, "The layer with the drawing has no lines: it is blank, or its lines are too faint. Choose "
                 "another layer, or another setting of 'Ink'."));
 }
 
@@ -201,6 +214,7 @@ celd_pipeline_new (const CeldPipelineInput *input, GError **error)
       celd_pipeline_try (celd_session_set_settings (p->session, &p->settings), error) &&
       celd_pipeline_try (set_layers (p, input), error) &&
       set_relations (p, input->relations, error) &&
+      set_arrow_path (p, input->arrow_path, error) &&
       check_lines (p, error))
     return p;
   celd_pipeline_free (p);
@@ -217,6 +231,9 @@ celd_pipeline_free (CeldPipeline *p)
   g_free (p->art.data);
   g_free (p->lit.data);
   g_free (p->enhanced.data);
+  g_free (p->view[0].data);
+  g_free (p->view[1].data);
+  g_free (p->note);
   g_free (p);
 }
 
@@ -354,6 +371,14 @@ celd_pipeline_report (void *data, double done)
   const CeldPipelineReport *r = data;
 
   return !r->progress || r->progress (r->data, MIN (r->from + r->part * done, 1), r->name);
+}
+
+gboolean
+celd_pipeline_report_steps (gpointer data, double done, const char *step)
+{
+  const CeldPipelineReport *r = data;
+
+  return !r->progress || r->progress (r->data, MIN (r->from + r->part * done, 1), step);
 }
 
 gboolean

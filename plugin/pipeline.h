@@ -44,6 +44,7 @@ typedef struct
   CeldPipelineLayer layer[CELD_N_LAYERS];         /* of any size; borrowed until celd_pipeline_new returns */
   CeldSettings      settings;                     /* levels are in [0,1] whatever their encoding says */
   const char       *relations;                    /* may be NULL */
+  const char       *arrow_path;                   /* SVG path data, arrows beside those of the layer; may be NULL */
 } CeldPipelineInput;
 
 #define CELD_PIPELINE_ERROR celd_pipeline_error_quark ()
@@ -76,7 +77,22 @@ GeglRectangle celd_pipeline_layer_box   (const CeldPipeline *pipeline, gsize lay
 char         *celd_pipeline_layer_name  (const CeldPipeline *pipeline, gsize layer);
 gboolean      celd_pipeline_write_layer (CeldPipeline *pipeline, gsize layer, GeglBuffer *buffer, GError **error);
 
-/* What the artist should know of the pictures that were made, a line for each problem; NULL: nothing.  Free it. */
+/* Makes the views of both eyes, in linear light, of layers that are completed whatever the settings say. */
+gboolean celd_pipeline_view (CeldPipeline *pipeline, CeldPipelineProgress progress, gpointer data, GError **error);
+/* Writes the views in this arrangement into a buffer of the size that celd_stereo_size computes, from 0,0 on. */
+gboolean celd_pipeline_write_views (CeldPipeline *pipeline, CeldStereo arrangement, GeglBuffer *buffer, GError **error);
+
+/* Writes CELD_PICTURE_LEVELS or CELD_PICTURE_DEPTH that was made to a file, as celd_io_write_depth does. */
+gboolean celd_pipeline_save (CeldPipeline *pipeline, CeldPicture picture, const char *path, GError **error);
+/* Writes a layer with levels or depth as they are, farthest outside it, as celd_io_write_depth does. */
+gboolean celd_pipeline_save_layer (const CeldPipelineLayer *layer, int width, int height, const char *path,
+                                   GError **error);
+/* Makes a model, or with CELD_MESH_HEIGHTFIELD one surface, and writes it to a file, as celd_io_write_meshes does.  With
+ * CELD_MESH_AUTO parts are solid in .stl, and else surfaces. */
+gboolean celd_pipeline_save_model (CeldPipeline *pipeline, const char *path, CeldPipelineProgress progress,
+                                   gpointer data, GError **error);
+
+/* What the artist should know of what was made, a line for each problem; NULL: nothing.  Free it. */
 char *celd_pipeline_problems (CeldPipeline *pipeline);
 
 #endif

@@ -3,19 +3,11 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "cli.h"
+#include "part-names.h"
 
 #include <stdlib.h>
 
 /* ------------------------------------------------------------------ names */
-
-/* "e0a030-3" for label 3. */
-static char *
-name_of_label (const CeldPalette *palette, uint32_t label)
-{
-  const uint8_t *c = palette->item[label - 1].colour;
-
-  return c[3] ? g_strdup_printf ("%02x%02x%02x-%u", c[0], c[1], c[2], label) : g_strdup ("background");
-}
 
 char **
 cli_model_names (const CeldPalette *palette)
@@ -23,7 +15,7 @@ cli_model_names (const CeldPalette *palette)
   char **name = g_new0 (char *, palette->n + 1);
 
   for (size_t k = 0; k < palette->n; k++)
-    name[k] = name_of_label (palette, (uint32_t) k + 1);
+    name[k] = celd_part_name (palette, (uint32_t) k + 1);
   return name;
 }
 
@@ -72,7 +64,7 @@ cli_model_names_of_regions (const CeldPlane *levels, const CeldLabels *regions, 
     {
       uint32_t region = g_array_index (list, LevelRegion, k).region;
 
-      name[k] = region ? name_of_label (palette, region) : g_strdup_printf ("level-%u", k + 1);
+      name[k] = region ? celd_part_name (palette, region) : g_strdup_printf ("level-%u", k + 1);
     }
   g_array_free (list, TRUE);
   return name;

@@ -3,6 +3,9 @@
  *
  *   run-pipeline OUT NAME=FILE...     NAME is drawing, scribbles, arrows, ...; writes OUT/PICTURE.raw
  *
+ * Also writes the views of both eyes, OUT/left.raw and OUT/right.raw, and files: OUT/saved.exr, OUT/saved.png,
+ * and the models OUT/parts.glb, OUT/parts.stl and OUT/surface.obj.
+ *
  * Scribbles and arrows are cropped to what is painted, and given with their offset, as layers of a host are.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
@@ -67,6 +70,52 @@ write_raw (const char *folder, const char *name, GeglBuffer *buffer)
   g_free (pixels);
 }
 
+static GeglBuffer *
+new_picture (const CeldPipelineInput *input)
+{
+  return gegl_buffer_new (GEGL_RECTANGLE (0, 0, input->width, input->height), babl_format ("RGBA float"));
+}
+
+static gboolean
+write_views (CeldPipeline *pipeline, const CeldPipelineInput *input, const char *folder, GError **error)
+{
+  gboolean good = celd_pipeline_view (pipeline, NULL, NULL, error);
+
+  for (int i = 0; i < 2 && good; i++)
+    {
+      GeglBuffer *buffer = new_picture (input);
+
+      good = celd_pipeline_write_views (pipeline, i ? CELD_STEREO_RIGHT : CELD_STEREO_LEFT, buffer, error);
+      write_raw (folder, i ? "right" : "left", buffer);
+      g_object_unref (buffer);
+    }
+  return good;
+}
+
+/* The surface needs another pipeline, since its settings say so. */
+static gboolean
+write_files (CeldPipeline *pipeline, CeldPipelineInput *input, const char *folder, GError **error)
+{
+  char         *path[5];
+  CeldPipeline *other;
+  gboolean      good;
+
+  for (int i = 0; i < 5; i++)
+    path[i] = g_strdup_printf ("%s/%s", folder, (const char *[]) { "saved.exr", "saved.png", "parts.glb", "parts.stl",
+                                                                   "surface.obj" }[i]);
+  input->settings.mesh_kind = CELD_MESH_HEIGHTFIELD;
+  other = celd_pipeline_new (input, error);
+  good  = celd_pipeline_save (pipeline, CELD_PICTURE_LEVELS, path[0], error) &&
+          celd_pipeline_save (pipeline, CELD_PICTURE_DEPTH, path[1], error) &&
+          celd_pipeline_save_model (pipeline, path[2], NULL, NULL, error) &&
+          celd_pipeline_save_model (pipeline, path[3], NULL, NULL, error) &&
+          other && celd_pipeline_save_model (other, path[4], NULL, NULL, error);
+  celd_pipeline_free (other);
+  for (int i = 0; i < 5; i++)
+    g_free (path[i]);
+  return good;
+}
+
 int
 main (int argc, char **argv)
 {
@@ -93,13 +142,17 @@ main (int argc, char **argv)
     }
   for (int i = 0; i < CELD_N_PICTURES; i++)
     {
-      GeglBuffer *buffer = gegl_buffer_new (GEGL_RECTANGLE (0, 0, input.width, input.height),
-                                            babl_format ("RGBA float"));
+      GeglBuffer *buffer = new_picture (&input);
 
       if (!celd_pipeline_write (pipeline, (CeldPicture) i, buffer, &error))
         return 1;
       write_raw (argv[1], pictures[i], buffer);
       g_object_unref (buffer);
+    }
+  if (!write_views (pipeline, &input, argv[1], &error) || !write_files (pipeline, &input, argv[1], &error))
+    {
+      fprintf (stderr, "%s\n", error->message);
+      return 1;
     }
   celd_pipeline_free (pipeline);
   for (int role = 0; role < CELD_N_LAYERS; role++)

@@ -11,7 +11,7 @@
 static CeldPipelineInput
 page_input (void)
 {
-  CeldPipelineInput input = { WIDTH, HEIGHT, { { NULL, 0, 0 } }, celd_settings (), NULL };
+  CeldPipelineInput input = { WIDTH, HEIGHT, { { NULL, 0, 0 } }, celd_settings (), NULL, NULL };
 
   input.layer[CELD_LAYER_DRAWING].buffer   = drawing;
   input.layer[CELD_LAYER_SCRIBBLES].buffer = scribbles;
@@ -103,6 +103,23 @@ relations_count_as_arrows_do (void)
   SAME (levels.data, 1);
 }
 
+/* Beside painted arrows, which point the same way here and do not contradict. */
+static void
+paths_count_as_arrows_do (void)
+{
+  CeldPipelineInput input = page_input ();
+
+  input.arrow_path = "M 45,48 C 50,10 70,60 90,48";
+  CHECK (make (&input, CELD_PICTURE_LEVELS, "Y float", "Y float", result));
+  SAME (levels.data, 1);
+  input.layer[CELD_LAYER_ARROWS].buffer = NULL;
+  CHECK (make (&input, CELD_PICTURE_LEVELS, "Y float", "Y float", result));
+  SAME (levels.data, 1);
+  input.arrow_path = "M 90,48 L 45,48";
+  CHECK (make (&input, CELD_PICTURE_LEVELS, "Y float", "Y float", result));
+  CHECK (difference (result, levels.data, PIXELS) > 0.1);
+}
+
 /* ------------------------------------------------------------------ progress */
 
 typedef struct { double last; int calls, most; } Watch;
@@ -132,7 +149,54 @@ progress_rises_and_cancels (void)
   g_clear_error (&error);
   CHECK (celd_pipeline_make (pipeline, BIT (LIT) | BIT (DEPTH), watch, &all, &error)); /* goes on after a cancel */
   CHECK (all.calls > 5 && all.last > 0.9);
+  all.last = 0;
+  CHECK (celd_pipeline_view (pipeline, watch, &all, &error));
+  CHECK (all.last > 0.99);
   celd_pipeline_free (pipeline);
+}
+
+/* ------------------------------------------------------------------ views */
+
+static double
+pixel_difference (GeglBuffer *a, GeglBuffer *b, int width)
+{
+  static float first[8 * PIXELS], second[8 * PIXELS];
+
+  gegl_buffer_get (a, GEGL_RECTANGLE (0, 0, width, HEIGHT), 1, babl_format ("RGBA float"), first, GEGL_AUTO_ROWSTRIDE,
+                   GEGL_ABYSS_NONE);
+  gegl_buffer_get (b, GEGL_RECTANGLE (0, 0, width, HEIGHT), 1, babl_format ("RGBA float"), second, GEGL_AUTO_ROWSTRIDE,
+                   GEGL_ABYSS_NONE);
+  return difference (first, second, 4 * (gsize) width * HEIGHT);
+}
+
+/* Without distance between the eyes both see the drawing; with it they see different pictures, which lie side by
+ * side. */
+static void
+views_are_those_of_two_eyes (void)
+{
+  GeglBuffer *view[4];
+
+  for (int i = 0; i < 4; i++)
+    {
+      CeldPipelineInput input = page_input ();
+      CeldPipeline     *pipeline;
+
+      input.settings.disparity = i ? 0.05f : 0;
+      pipeline = celd_pipeline_new (&input, NULL);
+      view[i] = gegl_buffer_new (GEGL_RECTANGLE (0, 0, i == 3 ? 2 * WIDTH : WIDTH, HEIGHT), babl_format ("RGBA float"));
+      CHECK (!celd_pipeline_write_views (pipeline, CELD_STEREO_LEFT, view[i], NULL)); /* not made */
+      CHECK (celd_pipeline_view (pipeline, NULL, NULL, NULL));
+      CHECK (celd_pipeline_write_views (pipeline, i < 2 ? CELD_STEREO_LEFT : i == 2 ? CELD_STEREO_RIGHT
+                                                                                  : CELD_STEREO_SIDE_BY_SIDE,
+                                        view[i], NULL));
+      celd_pipeline_free (pipeline);
+    }
+  NEAR (pixel_difference (view[0], drawing, WIDTH), 0, 1e-3);
+  CHECK (pixel_difference (view[1], drawing, WIDTH) > 0.5);
+  CHECK (pixel_difference (view[1], view[2], WIDTH) > 0.5);
+  NEAR (pixel_difference (view[3], view[1], WIDTH), 0, 1e-6);
+  for (int i = 0; i < 4; i++)
+    g_object_unref (view[i]);
 }
 
 /* One for each region, from the back; over each other they are the drawing. */
@@ -213,6 +277,9 @@ input_without_sense_is_refused (void)
   input.relations = "12,34 < x";
   CHECK (refused (&input, "line 1, column 9"));
   input = page_input ();
+  input.arrow_path = "M 12,34";
+  CHECK (refused (&input, "path with arrows cannot be read"));
+  input = page_input ();
   input.settings.tolerance = 5;
   CHECK (refused (&input, "outside its range"));
   input = page_input ();
@@ -252,7 +319,9 @@ main (void)
   RUN (numbers_of_normals_are_those_of_the_buffer);
   RUN (layers_may_be_smaller_than_the_image);
   RUN (relations_count_as_arrows_do);
+  RUN (paths_count_as_arrows_do);
   RUN (progress_rises_and_cancels);
+  RUN (views_are_those_of_two_eyes);
   RUN (layers_are_the_drawing_again);
   RUN (input_without_sense_is_refused);
   RUN (problems_are_told);

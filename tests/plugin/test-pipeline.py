@@ -5,6 +5,7 @@ $CELDEPTH: the command; $RUN_PIPELINE: the program that runs the pipeline
 
 SPDX-License-Identifier: LGPL-3.0-or-later
 """
+import json
 import os
 import subprocess
 import sys
@@ -32,6 +33,9 @@ def command(files, out):
                     '--labels', f'{out}/regions.png', '--suggested-arrows', f'{out}/suggestions.png'], check=True)
     results = {name: np.load(f'{out}/{name}.npy').astype(float) for name in OPTIONS}
     results['normals'] = 0.5 + 0.5 * results['normals']
+    subprocess.run([os.environ['CELDEPTH'], 'stereo', files['drawing'], '--quiet', *options,
+                    '--left', f'{out}/left.npy', '--right', f'{out}/right.npy'], check=True)
+    results.update({name: np.load(f'{out}/{name}.npy').astype(float) for name in ('left', 'right')})
     for name in ('regions', 'suggestions'):
         rgba = np.array(Image.open(f'{out}/{name}.png').convert('RGBA')) / 255
         results[name] = np.dstack([decode(rgba[..., :3]), rgba[..., 3]])
@@ -44,7 +48,42 @@ def pipeline(files, out, shape):
     subprocess.run([os.environ['RUN_PIPELINE'], out, *(f'{name}={path}' for name, path in files.items())], check=True,
                    env=os.environ | sanitizer)
     return {name: np.fromfile(f'{out}/{name}.raw', np.float32).reshape(*shape, 4).astype(float)
-            for name in [*OPTIONS, 'regions', 'suggestions']}
+            for name in [*OPTIONS, 'regions', 'suggestions', 'left', 'right']}
+
+
+def same_bytes(found, wanted):
+    return found == wanted
+
+
+def same_triangles(found, wanted):
+    """Of two binary STL files, within a ten thousandth of a millimetre."""
+    found, wanted = (np.frombuffer(data[84:], np.dtype([('corners', '<f4', 12), ('zero', '<u2')]))['corners'][:, 3:]
+                     for data in (found, wanted))
+    return found.shape == wanted.shape and np.abs(found - wanted).max() < 1e-4
+
+
+def same_parts(found, wanted):
+    """Of two GLB files the names of the parts and the numbers of their vertices and triangles."""
+    found, wanted = (json.loads(data[20:20 + int.from_bytes(data[12:16], 'little')]) for data in (found, wanted))
+    return all([part.get('name') for part in found[what]] == [part.get('name') for part in wanted[what]]
+               for what in ('nodes', 'meshes')) and \
+        [accessor['count'] for accessor in found['accessors']] == [accessor['count'] for accessor in wanted['accessors']]
+
+
+FILES = {'saved.exr': (same_bytes, 'popup', '--levels'), 'saved.png': (same_bytes, 'popup', '--depth'),
+         'parts.glb': (same_parts, 'relief', '--mesh'), 'parts.stl': (same_triangles, 'relief', '--mesh'),
+         'surface.obj': (same_bytes, 'relief', '--mesh-kind', 'heightfield', '--mesh')}
+
+
+def same_files(files, out):
+    """Whether each file that the pipeline wrote is that of the command."""
+    options = [word for name in files if name != 'drawing' for word in ('--' + name, files[name])]
+    os.mkdir(f'{out}/command')
+    for name, (same, command_name, *words) in FILES.items():
+        subprocess.run([os.environ['CELDEPTH'], command_name, files['drawing'], '--quiet', *options, *words,
+                        f'{out}/command/{name}'], check=True)
+        with open(f'{out}/{name}', 'rb') as found, open(f'{out}/command/{name}', 'rb') as wanted:
+            yield name, same(found.read(), wanted.read())
 
 
 def channels(picture):
@@ -66,6 +105,10 @@ def main():
                 good = difference <= ERROR and np.array_equal(found[name][..., 3:] > 0, alpha > 0)
                 passed, failed = passed + good, failed + (not good)
                 print(f'{"ok  " if good else "FAIL"} {drawing} {name}: differs by {difference:.2e}')
+            if drawing == 'people':
+                for name, good in same_files(files, out):
+                    passed, failed = passed + good, failed + (not good)
+                    print(f'{"ok  " if good else "FAIL"} {drawing} {name} is the file of the command')
     print(f'{passed} passed, {failed} failed')
     return failed > 0 or not passed
 
