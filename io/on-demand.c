@@ -38,8 +38,8 @@ find_module (char *path, size_t size)
 static bool
 refuse (CeldIoError *error, const char *why)
 {
-  snprintf (error->text, sizeof error->text, "Files can be neither read nor written, because celdepth's module for them "
-            "cannot be used: %s. Install all files of celdepth together.", why);
+  snprintf (error->text, sizeof error->text, "Files can be neither read nor written, because celdepth's module for "
+            "them cannot be used: %s. Install all files of celdepth together.", why);
   return false;
 }
 

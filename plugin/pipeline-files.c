@@ -148,11 +148,11 @@ celd_pipeline_save_model (CeldPipeline *p, const char *path, CeldPipelineProgres
   CeldHost           host = { celd_pipeline_report, celd_gegl_each, &r };
   gboolean           whole = p->settings.mesh_kind == CELD_MESH_HEIGHTFIELD;
   CeldColours        art = { 0 };
-  gboolean           good = celd_pipeline_make (p, whole ? OF (DEPTH) : OF (LEVELS), celd_pipeline_report_steps, &before,
-                                                error) &&
-                            encode_art (p, &art, error) &&
-                            (whole ? save_surface : save_parts) (p, path, &art, &host, error);
+  gboolean           good;
 
+  good = celd_pipeline_make (p, whole ? OF (DEPTH) : OF (LEVELS), celd_pipeline_report_steps, &before, error) &&
+         encode_art (p, &art, error) &&
+         (whole ? save_surface : save_parts) (p, path, &art, &host, error);
   g_free (art.data);
   return good;
 }

@@ -17,7 +17,7 @@ struct CeldPipeline
   const CeldOrder *order;             /* of the session; NULL: not made */
   CeldLayers      *layers;            /* NULL: not cut */
   CeldColours      view[2];           /* of the left and the right eye; data NULL: not made */
-  char            *note;              /* what the artist should know beside the problems of the session; NULL: nothing */
+  char            *note;              /* for the artist, beside the problems of the session; NULL: nothing */
 };
 
 #define OF(picture) (1u << CELD_PICTURE_##picture)

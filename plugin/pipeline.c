@@ -76,8 +76,8 @@ static gboolean
 check_input (const CeldPipelineInput *input, GError **error)
 {
   if (input->width < 1 || input->height < 1 || input->width > CELD_MAX_SIDE || input->height > CELD_MAX_SIDE)
-    return celd_pipeline_fail (error, "The image has %d x %d pixels; the limit is %d pixels a side. Scale it down first.",
-                 input->width, input->height, CELD_MAX_SIDE);
+    return celd_pipeline_fail (error, "The image has %d x %d pixels; the limit is %d pixels a side. Scale it down "
+                               "first.", input->width, input->height, CELD_MAX_SIDE);
   if (!input->layer[CELD_LAYER_DRAWING].buffer)
     return celd_pipeline_fail (error, "There is no drawing. Choose its layer.");
   for (int role = 0; role < CELD_N_LAYERS; role++)
@@ -86,11 +86,12 @@ check_input (const CeldPipelineInput *input, GError **error)
       const GeglRectangle     *r = layer->buffer ? gegl_buffer_get_extent (layer->buffer) : NULL;
 
       if (r && !gegl_rectangle_intersect (NULL, r, GEGL_RECTANGLE (-layer->x, -layer->y, input->width, input->height)))
-        return celd_pipeline_fail (error, "The layer with the %s lies outside the image. Move it over the image.", layer_names[role]);
+        return celd_pipeline_fail (error, "The layer with the %s lies outside the image. Move it over the image.",
+                                   layer_names[role]);
       for (int other = 0; r && other < role; other++)
         if (layer->buffer == input->layer[other].buffer)
           return celd_pipeline_fail (error, "The same layer is chosen as %s and as %s. Give each a layer of its own.",
-                       layer_names[other], layer_names[role]);
+                                     layer_names[other], layer_names[role]);
     }
   return TRUE;
 }
@@ -163,8 +164,9 @@ set_relations (CeldPipeline *p, const char *relations, GError **error)
 
   if (status != CELD_BAD_RELATION)
     return celd_pipeline_try (status, error);
-  return celd_pipeline_fail (error, "The relations cannot be read: line %d, column %d has %s where %s was expected. An example of a "
-               "relation is: 120,80 > 300,95", place.line, place.column, place.found, place.expected);
+  return celd_pipeline_fail (error, "The relations cannot be read: line %d, column %d has %s where %s was expected. "
+                             "An example of a relation is: 120,80 > 300,95", place.line, place.column, place.found,
+                             place.expected);
 }
 
 /* The host makes the path of its own items, so that what is wrong with it cannot be pointed at. */
@@ -176,8 +178,8 @@ set_arrow_path (CeldPipeline *p, const char *path, GError **error)
 
   if (status != CELD_BAD_RELATION)
     return celd_pipeline_try (status, error);
-  return celd_pipeline_fail (error, "The path with arrows cannot be read: it has %s where %s was expected.", place.found,
-                             place.expected);
+  return celd_pipeline_fail (error, "The path with arrows cannot be read: it has %s where %s was expected.",
+                             place.found, place.expected);
 }
 
 static gboolean
@@ -190,8 +192,8 @@ check_lines (CeldPipeline *p, GError **error)
     return TRUE;
   return celd_pipeline_try (celd_session_ink (p->session, &host, &ink, NULL), error) &&
          (celd_ink_has_lines (&ink) ||
-          celd_pipeline_fail (error, "The layer with the drawing has no lines: it is blank, or its lines are too faint. Choose "
-                "another layer, or another setting of 'Ink'."));
+          celd_pipeline_fail (error, "The layer with the drawing has no lines: it is blank, or its lines are too "
+                              "faint. Choose another layer, or another setting of 'Ink'."));
 }
 
 CeldPipeline *

@@ -87,8 +87,8 @@ gboolean celd_pipeline_save (CeldPipeline *pipeline, CeldPicture picture, const 
 /* Writes a layer with levels or depth as they are, farthest outside it, as celd_io_write_depth does. */
 gboolean celd_pipeline_save_layer (const CeldPipelineLayer *layer, int width, int height, const char *path,
                                    GError **error);
-/* Makes a model, or with CELD_MESH_HEIGHTFIELD one surface, and writes it to a file, as celd_io_write_meshes does.  With
- * CELD_MESH_AUTO parts are solid in .stl, and else surfaces. */
+/* Makes a model, or with CELD_MESH_HEIGHTFIELD one surface, and writes it to a file, as celd_io_write_meshes does.
+ * With CELD_MESH_AUTO parts are solid in .stl, and else surfaces. */
 gboolean celd_pipeline_save_model (CeldPipeline *pipeline, const char *path, CeldPipelineProgress progress,
                                    gpointer data, GError **error);
 

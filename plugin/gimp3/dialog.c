@@ -79,6 +79,22 @@ layer_grid (GArray *listed, GimpProcedureConfig *config, int first, int last)
   return grid;
 }
 
+/* Says that paths are read, too; NULL: there are none. */
+static GtkWidget *
+paths_label (GimpImage *image)
+{
+  CeldPathArrows paths = celd_paths_read (image);
+  char          *text = g_strdup_printf (paths.n == 1 ? "and %d arrow of the path Arrows" : "and %d arrows of the path "
+                                         "Arrows", paths.n);
+  GtkWidget     *label = paths.n ? gtk_label_new (text) : NULL;
+
+  if (label)
+    gtk_label_set_xalign (GTK_LABEL (label), 0);
+  g_free (text);
+  g_free (paths.data);
+  return label;
+}
+
 /* Contours, corrections and hidden are folded, unless one of them is there. */
 static GtkWidget *
 layers_frame (GimpImage *image, GimpProcedureConfig *config)
@@ -87,6 +103,7 @@ layers_frame (GimpImage *image, GimpProcedureConfig *config)
   GtkWidget *frame = gimp_frame_new ("Layers"), *box = gtk_box_new (GTK_ORIENTATION_VERTICAL, 6);
   GtkWidget *more = gtk_expander_new_with_mnemonic ("More la_yers");
   GtkWidget *rest = layer_grid (listed, config, CELD_LAYER_CONTOURS, CELD_LAYER_HIDDEN);
+  GtkWidget *paths = paths_label (image);
   GimpLayer *chosen[CELD_N_LAYERS];
 
   celd_layers_chosen (config, chosen);
@@ -95,6 +112,8 @@ layers_frame (GimpImage *image, GimpProcedureConfig *config)
   gtk_expander_set_expanded (GTK_EXPANDER (more), chosen[CELD_LAYER_CONTOURS] || chosen[CELD_LAYER_CORRECTIONS] ||
                                                     chosen[CELD_LAYER_HIDDEN]);
   gtk_container_add (GTK_CONTAINER (box), layer_grid (listed, config, CELD_LAYER_DRAWING, CELD_LAYER_ARROWS));
+  if (paths)
+    gtk_container_add (GTK_CONTAINER (box), paths);
   gtk_container_add (GTK_CONTAINER (box), more);
   gtk_container_add (GTK_CONTAINER (frame), box);
   gtk_widget_set_margin_bottom (frame, 12);
@@ -129,33 +148,39 @@ fill_pictures (GimpProcedureDialog *dialog, GimpImage *image)
 
 /* ------------------------------------------------------------------ settings */
 
-/* Fractions are shown as percentages, with a label that says so. */
+/* Fractions are shown as percentages; labels say so, and name units. */
 static void
-use_sliders (GimpProcedureDialog *dialog, const char *const *names)
+use_slider (GimpProcedureDialog *dialog, GimpProcedureConfig *config, const char *name)
 {
-  for (; *names; names++)
-    {
-      const CeldSettingInfo *row = celd_setting_find (*names);
-      gboolean               fraction = row->shown.most <= 1;
-      GtkWidget             *entry = gimp_procedure_dialog_get_scale_entry (dialog, *names, fraction ? 100 : 1);
-      GtkWidget             *label = gimp_labeled_get_label (GIMP_LABELED (entry));
-      char                  *text = g_strdup_printf ("%s (%%)", row->label);
+  const CeldSettingInfo *row = celd_setting_find (name);
+  const GParamSpec      *spec = g_object_class_find_property (G_OBJECT_GET_CLASS (config), name);
+  gboolean               fraction = row->shown.most <= 1;
+  GtkWidget             *entry = gimp_procedure_dialog_get_scale_entry (dialog, name, fraction ? 100 : 1);
+  const char            *unit = fraction ? "%" : !g_strcmp0 (row->unit, "degree") ? "°" : row->unit;
+  char                  *text = g_strdup_printf (unit ? "%s (%s)" : "%s", g_param_spec_get_nick ((GParamSpec *) spec),
+                                                 unit);
 
-      if (fraction)
-        gtk_label_set_text (GTK_LABEL (label), text);
-      gimp_label_spin_set_digits (GIMP_LABEL_SPIN (entry), fraction ? MAX (row->shown.digits - 2, 0)
-                                                                    : MIN (row->shown.digits, 2));
-      g_free (text);
-    }
+  gtk_label_set_text_with_mnemonic (GTK_LABEL (gimp_labeled_get_label (GIMP_LABELED (entry))), text);
+  gimp_label_spin_set_digits (GIMP_LABEL_SPIN (entry), fraction ? MAX (row->shown.digits - 2, 0)
+                                                                : MIN (row->shown.digits, 2));
+  g_free (text);
 }
 
 static void
-fill_light (GimpProcedureDialog *dialog)
+use_sliders (GimpProcedureDialog *dialog, GimpProcedureConfig *config, const char *const *names)
+{
+  for (; *names; names++)
+    if (celd_has_argument (config, *names))
+      use_slider (dialog, config, *names);
+}
+
+static void
+fill_light (GimpProcedureDialog *dialog, GimpProcedureConfig *config)
 {
   static const char *const sliders[] = { "light-azimuth", "light-elevation", "ambient", "specular", "rim-light",
                                          "bulge", "bevel", NULL };
 
-  use_sliders (dialog, sliders);
+  use_sliders (dialog, config, sliders);
   gimp_procedure_dialog_get_label (dialog, "light-title", "Light", FALSE, FALSE);
   gimp_procedure_dialog_get_label (dialog, "more-light-title", "_More light and shape", FALSE, TRUE);
   gimp_procedure_dialog_fill_box (dialog, "more-light-box", "ambient", "toon-steps", "specular", "rim-light", "bulge",
@@ -167,11 +192,11 @@ fill_light (GimpProcedureDialog *dialog)
 }
 
 static void
-fill_shadows (GimpProcedureDialog *dialog)
+fill_shadows (GimpProcedureDialog *dialog, GimpProcedureConfig *config)
 {
   static const char *const sliders[] = { "shadow-strength", "shadow-size", "shadow-offset", NULL };
 
-  use_sliders (dialog, sliders);
+  use_sliders (dialog, config, sliders);
   gimp_procedure_dialog_get_label (dialog, "shadows-title", "Shadows", FALSE, FALSE);
   gimp_procedure_dialog_fill_box (dialog, "shadows-box", "shadow-strength", "shadow-size", "shadow-offset", NULL);
   gimp_procedure_dialog_fill_frame (dialog, "shadows", "shadows-title", FALSE, "shadows-box");
@@ -183,7 +208,7 @@ fill_reading (GimpProcedureDialog *dialog, GimpProcedureConfig *config)
 {
   static const char *const sliders[] = { "ink-threshold", "hardness", NULL };
 
-  use_sliders (dialog, sliders);
+  use_sliders (dialog, config, sliders);
   gimp_procedure_dialog_get_label (dialog, "reading-title", "_How layers are read", FALSE, TRUE);
   if (celd_has_argument (config, "suggest"))
     gimp_procedure_dialog_fill_box (dialog, "reading-box", "ink", "ink-threshold", "arrow-style", "hardness",
@@ -205,39 +230,108 @@ set_sensitivity (GimpProcedureDialog *dialog, GimpProcedureConfig *config)
     gimp_procedure_dialog_set_sensitive (dialog, shadow[i], TRUE, G_OBJECT (config), "enhanced", FALSE);
 }
 
+/* ------------------------------------------------------------------ the dialogs */
+
+static void
+fill_popup (GimpProcedureDialog *dialog, GimpProcedureConfig *config, GimpImage *image)
+{
+  fill_pictures (dialog, image);
+  fill_light (dialog, config);
+  fill_shadows (dialog, config);
+  set_sensitivity (dialog, config);
+  gimp_procedure_dialog_fill (dialog, "pictures-frame", "light", "shadows", "reading", NULL);
+}
+
+static void
+fill_split (GimpProcedureDialog *dialog)
+{
+  gtk_button_set_label (GTK_BUTTON (gimp_procedure_dialog_get_widget (dialog, "complete", G_TYPE_NONE)),
+                        "Complete what nearer parts hide");
+  gimp_procedure_dialog_fill (dialog, "complete", "reading", NULL);
+}
+
+static void
+fill_stereo (GimpProcedureDialog *dialog, GimpProcedureConfig *config)
+{
+  static const char *const sliders[] = { "disparity", "convergence", "screen-width", NULL };
+
+  use_sliders (dialog, config, sliders);
+  gimp_procedure_dialog_get_label (dialog, "view-title", "Views", FALSE, FALSE);
+  gimp_procedure_dialog_get_label (dialog, "more-views-title", "_More for screens", FALSE, TRUE);
+  gimp_procedure_dialog_fill_box (dialog, "more-views-box", "floating-window", "screen-width", NULL);
+  gimp_procedure_dialog_fill_expander (dialog, "more-views", "more-views-title", FALSE, "more-views-box");
+  gimp_procedure_dialog_fill_box (dialog, "view-box", "stereo", "new-image", "disparity", "convergence", "more-views",
+                                  NULL);
+  gimp_procedure_dialog_fill_frame (dialog, "view", "view-title", FALSE, "view-box");
+  gimp_procedure_dialog_fill (dialog, "view", "reading", NULL);
+}
+
+/* Where the depth comes from is asked only if there is a choice. */
+static void
+fill_export (GimpProcedureDialog *dialog, GimpImage *image)
+{
+  gboolean layers = celd_results_find (image, celd_picture_arguments[CELD_PICTURE_DEPTH]) ||
+                    celd_results_find (image, celd_picture_arguments[CELD_PICTURE_LEVELS]);
+
+  gimp_procedure_dialog_get_label (dialog, "depth-title", "Export", FALSE, FALSE);
+  gimp_procedure_dialog_get_label (dialog, "few-steps", "<small>The image has 8 bits, so that depth in its layers has at "
+                                   "most 256 steps.\nFor more let it be made anew.</small>", TRUE, FALSE);
+  if (layers && celd_image_has_few_bits (image))
+    gimp_procedure_dialog_fill_box (dialog, "depth-box", "picture", "source", "few-steps", "file", NULL);
+  else if (layers)
+    gimp_procedure_dialog_fill_box (dialog, "depth-box", "picture", "source", "file", NULL);
+  else
+    gimp_procedure_dialog_fill_box (dialog, "depth-box", "picture", "file", NULL);
+  gimp_procedure_dialog_fill_frame (dialog, "depth-frame", "depth-title", FALSE, "depth-box");
+  gimp_procedure_dialog_fill (dialog, "depth-frame", "reading", NULL);
+}
+
+static void
+fill_mesh (GimpProcedureDialog *dialog, GimpProcedureConfig *config)
+{
+  static const char *const sliders[] = { "mesh-size", "relief-bulge", "relief-depth", "mesh-plate", "mesh-error",
+                                         "most-vertices", NULL };
+
+  use_sliders (dialog, config, sliders);
+  gimp_procedure_dialog_get_label (dialog, "shape-title", "Shape", FALSE, FALSE);
+  gimp_procedure_dialog_get_label (dialog, "more-shape-title", "_More about the mesh", FALSE, TRUE);
+  gimp_procedure_dialog_fill_box (dialog, "more-shape-box", "mesh-kind", "mesh-plate", "relief-from", "mesh-error",
+                                  "most-vertices", NULL);
+  gimp_procedure_dialog_fill_expander (dialog, "more-shape", "more-shape-title", FALSE, "more-shape-box");
+  gimp_procedure_dialog_fill_box (dialog, "shape-box", "relief-bulge", "relief-depth", "mesh-size", "more-shape", NULL);
+  gimp_procedure_dialog_fill_frame (dialog, "shape", "shape-title", FALSE, "shape-box");
+  gimp_procedure_dialog_fill (dialog, "file", "shape", "reading", NULL);
+}
+
 static void
 fill (GimpProcedureDialog *dialog, GimpProcedureConfig *config, GimpImage *image)
 {
   fill_reading (dialog, config);
   if (celd_has_argument (config, "lit"))
-    {
-      fill_pictures (dialog, image);
-      fill_light (dialog);
-      fill_shadows (dialog);
-      set_sensitivity (dialog, config);
-      gimp_procedure_dialog_fill (dialog, "pictures-frame", "light", "shadows", "reading", NULL);
-    }
+    fill_popup (dialog, config, image);
   else if (celd_has_argument (config, "complete"))
-    {
-      gtk_button_set_label (GTK_BUTTON (gimp_procedure_dialog_get_widget (dialog, "complete", G_TYPE_NONE)),
-                            "Complete what nearer parts hide");
-      gimp_procedure_dialog_fill (dialog, "complete", "reading", NULL);
-    }
+    fill_split (dialog);
+  else if (celd_has_argument (config, "stereo"))
+    fill_stereo (dialog, config);
+  else if (celd_has_argument (config, "source"))
+    fill_export (dialog, image);
+  else if (celd_has_argument (config, "mesh-kind"))
+    fill_mesh (dialog, config);
   else
     gimp_procedure_dialog_fill (dialog, "reading", NULL);
 }
 
 gboolean
-celd_dialog_run (GimpProcedure *procedure, GimpProcedureConfig *config, GimpImage *image, const char *title)
+celd_dialog_run (GimpProcedure *procedure, GimpProcedureConfig *config, GimpImage *image, const CeldProcedure *p)
 {
   GtkWidget           *window;
   GimpProcedureDialog *dialog;
   gboolean             go;
 
   gimp_ui_init ("celdepth");
-  window = gimp_procedure_dialog_new (procedure, config, title);
+  window = gimp_procedure_dialog_new (procedure, config, p->title);
   dialog = GIMP_PROCEDURE_DIALOG (window);
-  gimp_procedure_dialog_set_ok_label (dialog, "_Make");
+  gimp_procedure_dialog_set_ok_label (dialog, p->file_ending ? "_Export" : "_Make");
   gtk_box_pack_start (GTK_BOX (gtk_dialog_get_content_area (GTK_DIALOG (window))), layers_frame (image, config), FALSE,
                       FALSE, 0);
   fill (dialog, config, image);

@@ -3,12 +3,17 @@
  *   main.c       the plug-in, and the table of its procedures
  *   layers.c     layers of an image, by their names
  *   settings.c   arguments made from the table of settings, and settings remembered with an image
+ *   paths.c      paths that are arrows
+ *   files.c      files that are written
  *   results.c    the group with the results
  *   dialog.c     the dialog of all of them
  *   run.c        what the procedures with a dialog do
  *   popup.c      Pop-up
  *   split.c      Split into layers
  *   suggest.c    Suggest order
+ *   stereo.c     Stereo
+ *   export.c     Export depth
+ *   mesh.c       Relief mesh
  *   setup.c      Set up layers
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
@@ -30,20 +35,25 @@ struct CeldProcedure
   void           (*add_arguments) (GimpProcedure *procedure);
   GimpRunImageFunc run;            /* with the CeldProcedure as its data */
 
-  /* for celd_run: the title of the dialog; what takes time; and what changes the image, in one step of undo, NULL on
-   * failure */
-  const char      *title;
+  /* for celd_run: the title of the dialog; what the name of the argument "file" ends in, after the image's, NULL if
+   * there is none; whether the result goes elsewhere than into the image, NULL: it does if nothing is written;
+   * checks of its own before anything takes time, which may do all of it, NULL: none; what takes time; and what changes
+   * the image, in one step of undo, or makes another one, NULL on failure */
+  const char      *title, *file_ending;
+  gboolean       (*elsewhere) (GimpImage *image, GimpProcedureConfig *config);
+  gboolean       (*prepare) (GimpImage *image, GimpProcedureConfig *config, gboolean *done, GError **error);
   gboolean       (*make)  (CeldPipeline *pipeline, GimpImage *image, GimpProcedureConfig *config,
                            CeldPipelineProgress progress, gpointer data, GError **error);
   GimpLayer     *(*write) (CeldPipeline *pipeline, GimpImage *image, GimpProcedureConfig *config, GError **error);
 };
 
-extern const CeldProcedure celd_popup_procedure, celd_setup_procedure, celd_split_procedure, celd_suggest_procedure;
+extern const CeldProcedure celd_popup_procedure, celd_setup_procedure, celd_split_procedure, celd_suggest_procedure,
+  celd_stereo_procedure, celd_export_procedure, celd_mesh_procedure;
 
 /* ------------------------------------------------------------------ run.c */
 
-/* Shows the dialog unless a script runs it, reads the layers, makes and writes.  The second return value is the layer
- * that was written. */
+/* Shows the dialog unless a script runs it, reads the layers, makes and writes.  The second return value, if there is
+ * one, is the layer that was written. */
 GimpValueArray *celd_run (GimpProcedure *procedure, GimpRunMode run_mode, GimpImage *image, GimpDrawable **drawables,
                           GimpProcedureConfig *config, gpointer run_data);
 
@@ -70,6 +80,23 @@ gboolean celd_layers_open  (GimpImage *image, GimpLayer *const layer[CELD_N_LAYE
                             GError **error);
 void     celd_layers_close (CeldPipelineInput *input);
 
+/* ------------------------------------------------------------------ paths.c */
+
+/* The arrows of all paths named Arrows: as SVG path data, to be freed; how many, and how many strokes are none. */
+typedef struct { char *data; int n, left_out; } CeldPathArrows;
+CeldPathArrows celd_paths_read (GimpImage *image);
+
+/* ------------------------------------------------------------------ files.c */
+
+/* Set the argument "file" to the one that was remembered, or one beside the image's own; and remember it. */
+void celd_file_recall   (GimpImage *image, GimpProcedureConfig *config, const CeldProcedure *p);
+void celd_file_remember (GimpImage *image, GimpProcedureConfig *config, const CeldProcedure *p);
+
+/* The path of the file, to be freed; NULL if it cannot be written, for `can_write` or because there is no such folder.
+ * What writes files is loaded then. */
+char *celd_file_chosen (GimpProcedureConfig *config, gboolean (*can_write) (const char *path), const char *endings,
+                        GError **error);
+
 /* ------------------------------------------------------------------ settings.c */
 
 /* Names of arguments: of the layer with a role, and of the switch for a picture. */
@@ -78,8 +105,13 @@ extern const char *const celd_layer_arguments[CELD_N_LAYERS];
 extern const char *const celd_picture_arguments[CELD_POPUP_PICTURES];
 
 /* The arguments of a procedure, with layers and relations. */
-enum { CELD_FOR_POPUP = 1, CELD_FOR_SPLIT = 2, CELD_FOR_SUGGEST = 4 };
+enum
+{
+  CELD_FOR_POPUP = 1, CELD_FOR_SPLIT = 2, CELD_FOR_SUGGEST = 4, CELD_FOR_STEREO = 8, CELD_FOR_EXPORT = 16,
+  CELD_FOR_MESH = 32
+};
 void     celd_settings_add_arguments (GimpProcedure *procedure, guint whose);
+void     celd_file_add_argument      (GimpProcedure *procedure, const char *help); /* "file" */
 gboolean celd_has_argument (GimpProcedureConfig *config, const char *name);
 
 /* What was chosen: the settings, and the pictures as bits. */
@@ -87,9 +119,9 @@ CeldSettings celd_settings_chosen (GimpProcedureConfig *config);
 guint        celd_pictures_chosen (GimpProcedureConfig *config);
 void         celd_layers_chosen   (GimpProcedureConfig *config, GimpLayer *layer[CELD_N_LAYERS]); /* borrowed */
 
-/* Keep the arguments with the image, and set those that were kept.  Layers that are not found by their names are kept,
- * too; layers are always set. */
-void celd_settings_remember (GimpImage *image, GimpProcedureConfig *config);
+/* Keep the arguments with the image, in a step of undo if wanted, and set those that were kept.  Layers that are not
+ * found by their names are kept, too; layers are always set. */
+void celd_settings_remember (GimpImage *image, GimpProcedureConfig *config, gboolean undoable);
 void celd_settings_recall   (GimpImage *image, GimpProcedureConfig *config);
 
 /* ------------------------------------------------------------------ results.c */
@@ -102,13 +134,32 @@ gboolean celd_results_is_group (GimpItem *item);
 void     celd_item_mark      (gpointer item, const char *name, const char *text);
 gboolean celd_item_is_marked (GimpItem *item, const char *name, const char *text);
 
-/* Writes the wanted pictures into the layers of the group, which is made if there is none.
- * Layers of other pictures are removed; those whose pixels are locked stay as they are.  NULL on failure. */
-GimpGroupLayer *celd_results_write (GimpImage *image, CeldPipeline *pipeline, guint wanted, GError **error);
+/* A layer of the group: its mark, its name when it is new, and a number below 32 of what is on it. */
+typedef struct { const char *mark, *name; GimpImageType type; int picture; } CeldResultLayer;
+
+/* All layers of a procedure, from the top to the bottom; what writes one of them; and whether the first new one is
+ * visible, even in a group that was there before. */
+typedef struct
+{
+  const CeldResultLayer *layer;
+  gsize                  n;
+  gboolean             (*write) (CeldPipeline *pipeline, int picture, gpointer data, GeglBuffer *buffer, GError **error);
+  gpointer               data;
+  gboolean               show;
+} CeldResults;
+
+/* Writes the wanted pictures, as bits, into layers of the group, which is made if there is none.
+ * Other ones of these layers are removed; those whose pixels are locked stay as they are.  NULL on failure. */
+GimpGroupLayer *celd_results_write (GimpImage *image, CeldPipeline *pipeline, const CeldResults *results, guint wanted,
+                                    GError **error);
+
+/* The layer with this mark in a group of results; NULL: there is none. */
+GimpLayer *celd_results_find (GimpImage *image, const char *mark);
 
 /* ------------------------------------------------------------------ dialog.c */
 
 /* Shows what the procedure has arguments for.  FALSE: cancelled. */
-gboolean celd_dialog_run (GimpProcedure *procedure, GimpProcedureConfig *config, GimpImage *image, const char *title);
+gboolean celd_dialog_run (GimpProcedure *procedure, GimpProcedureConfig *config, GimpImage *image,
+                          const CeldProcedure *p);
 
 #endif

@@ -4,6 +4,17 @@
  */
 #include "gimp3.h"
 
+/* From the top of the group to the bottom.  Pictures that show numbers or light alone have no alpha. */
+static const CeldResultLayer layers[CELD_POPUP_PICTURES] = {
+  { "enhanced", "Drawing with shadows", GIMP_RGBA_IMAGE, CELD_PICTURE_ENHANCED },
+  { "lit",      "Lit drawing",          GIMP_RGBA_IMAGE, CELD_PICTURE_LIT },
+  { "shading",  "Shading",              GIMP_RGB_IMAGE,  CELD_PICTURE_SHADING },
+  { "normals",  "Normal map",           GIMP_RGB_IMAGE,  CELD_PICTURE_NORMALS },
+  { "depth",    "Depth",                GIMP_RGB_IMAGE,  CELD_PICTURE_DEPTH },
+  { "levels",   "Levels",               GIMP_RGB_IMAGE,  CELD_PICTURE_LEVELS },
+  { "regions",  "Regions",              GIMP_RGBA_IMAGE, CELD_PICTURE_REGIONS },
+};
+
 static gboolean
 make (CeldPipeline *pipeline, GimpImage *image, GimpProcedureConfig *config, CeldPipelineProgress progress,
       gpointer data, GError **error)
@@ -18,10 +29,19 @@ make (CeldPipeline *pipeline, GimpImage *image, GimpProcedureConfig *config, Cel
   return FALSE;
 }
 
+static gboolean
+write_layer (CeldPipeline *pipeline, int picture, gpointer data, GeglBuffer *buffer, GError **error)
+{
+  (void) data;
+  return celd_pipeline_write (pipeline, (CeldPicture) picture, buffer, error);
+}
+
 static GimpLayer *
 write_result (CeldPipeline *pipeline, GimpImage *image, GimpProcedureConfig *config, GError **error)
 {
-  return (GimpLayer *) celd_results_write (image, pipeline, celd_pictures_chosen (config), error);
+  CeldResults results = { layers, G_N_ELEMENTS (layers), write_layer, NULL, FALSE };
+
+  return (GimpLayer *) celd_results_write (image, pipeline, &results, celd_pictures_chosen (config), error);
 }
 
 static void

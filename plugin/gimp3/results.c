@@ -10,17 +10,6 @@
 #define GROUP_PARASITE "celdepth-results"
 #define GROUP_NAME     "Cartoon Depth"
 
-/* From the top of the group to the bottom.  Pictures that show numbers or light alone have no alpha. */
-static const struct { CeldPicture picture; const char *name; GimpImageType type; } layers[CELD_POPUP_PICTURES] = {
-  { CELD_PICTURE_ENHANCED, "Drawing with shadows", GIMP_RGBA_IMAGE },
-  { CELD_PICTURE_LIT,      "Lit drawing",          GIMP_RGBA_IMAGE },
-  { CELD_PICTURE_SHADING,  "Shading",              GIMP_RGB_IMAGE },
-  { CELD_PICTURE_NORMALS,  "Normal map",           GIMP_RGB_IMAGE },
-  { CELD_PICTURE_DEPTH,    "Depth",                GIMP_RGB_IMAGE },
-  { CELD_PICTURE_LEVELS,   "Levels",               GIMP_RGB_IMAGE },
-  { CELD_PICTURE_REGIONS,  "Regions",              GIMP_RGBA_IMAGE },
-};
-
 /* ------------------------------------------------------------------ parasites */
 
 void
@@ -54,33 +43,41 @@ celd_results_is_group (GimpItem *item)
 
 /* ------------------------------------------------------------------ finding */
 
-/* The first group of results that is not locked, among these items and inside them. */
+/* The first group of results among these items and inside them, that is locked or that is not. */
 static GimpItem *
-find_group (GimpItem **items)
+find_group (GimpItem **items, gboolean locked)
 {
   GimpItem *found = NULL;
 
   for (int i = 0; items && items[i] && !found; i++)
     if (celd_results_is_group (items[i]))
-      found = gimp_item_get_lock_content (items[i]) ? NULL : items[i];
+      found = !gimp_item_get_lock_content (items[i]) == !locked ? items[i] : NULL;
     else if (gimp_item_is_group (items[i]))
       {
         GimpItem **children = gimp_item_get_children (items[i]);
 
-        found = find_group (children);
+        found = find_group (children, locked);
         g_free (children);
       }
+  return found;
+}
+
+static GimpItem *
+find_group_of_image (GimpImage *image, gboolean locked)
+{
+  GimpLayer **top = gimp_image_get_layers (image);
+  GimpItem   *found = find_group ((GimpItem **) top, locked);
+
+  g_free (top);
   return found;
 }
 
 static GimpGroupLayer *
 get_group (GimpImage *image)
 {
-  GimpLayer     **top = gimp_image_get_layers (image);
-  GimpItem       *found = find_group ((GimpItem **) top);
+  GimpItem       *found = find_group_of_image (image, FALSE);
   GimpGroupLayer *group;
 
-  g_free (top);
   if (found)
     return GIMP_GROUP_LAYER (found);
   group = gimp_group_layer_new (image, GROUP_NAME);
@@ -89,42 +86,64 @@ get_group (GimpImage *image)
   return group;
 }
 
-/* The layer of a picture in the group; NULL: there is none. */
+/* The layer with this mark in the group; NULL: there is none. */
 static GimpLayer *
-find_layer (GimpGroupLayer *group, CeldPicture picture)
+find_layer (GimpItem *group, const char *mark)
 {
-  GimpItem **children = gimp_item_get_children (GIMP_ITEM (group));
+  GimpItem **children = group ? gimp_item_get_children (group) : NULL;
   GimpLayer *found = NULL;
 
   for (int i = 0; children && children[i] && !found; i++)
-    if (celd_item_is_marked (children[i], CELD_PICTURE_MARK, celd_picture_arguments[picture]))
+    if (celd_item_is_marked (children[i], CELD_PICTURE_MARK, mark))
       found = GIMP_LAYER (children[i]);
   g_free (children);
   return found;
 }
 
+GimpLayer *
+celd_results_find (GimpImage *image, const char *mark)
+{
+  GimpLayer *layer = find_layer (find_group_of_image (image, FALSE), mark);
+
+  return layer ? layer : find_layer (find_group_of_image (image, TRUE), mark);
+}
+
 /* ------------------------------------------------------------------ writing */
+
+typedef struct
+{
+  GimpImage         *image;
+  CeldPipeline      *pipeline;
+  GimpGroupLayer    *group;
+  const CeldResults *results;
+  guint              wanted;
+} Writing;
+
+static gboolean
+write_pixels (const Writing *w, const CeldResultLayer *l, GeglBuffer *buffer, GError **error)
+{
+  return w->results->write (w->pipeline, l->picture, w->results->data, buffer, error);
+}
 
 /* Before it belongs to the image nothing of a layer can be undone, and nothing has to be. */
 static gboolean
-add_layer (GimpImage *image, CeldPipeline *pipeline, GimpGroupLayer *group, gsize i, int position, gboolean visible,
-           GError **error)
+add_layer (const Writing *w, const CeldResultLayer *l, int position, gboolean visible, GError **error)
 {
-  int         w = gimp_image_get_width (image), h = gimp_image_get_height (image);
-  GimpLayer  *layer = gimp_layer_new (image, layers[i].name, w, h, layers[i].type, 100, GIMP_LAYER_MODE_NORMAL);
+  GimpLayer  *layer = gimp_layer_new (w->image, l->name, gimp_image_get_width (w->image),
+                                      gimp_image_get_height (w->image), l->type, 100, GIMP_LAYER_MODE_NORMAL);
   GeglBuffer *buffer = gimp_drawable_get_buffer (GIMP_DRAWABLE (layer));
-  gboolean    good = celd_pipeline_write (pipeline, layers[i].picture, buffer, error);
+  gboolean    good = write_pixels (w, l, buffer, error);
 
   g_object_unref (buffer); /* which sends the pixels */
-  celd_item_mark (layer, CELD_PICTURE_MARK, celd_picture_arguments[layers[i].picture]);
+  celd_item_mark (layer, CELD_PICTURE_MARK, l->mark);
   gimp_item_set_visible (GIMP_ITEM (layer), visible);
-  gimp_image_insert_layer (image, layer, GIMP_LAYER (group), position);
+  gimp_image_insert_layer (w->image, layer, GIMP_LAYER (w->group), position);
   return good;
 }
 
 /* Through the shadow buffer, which can be undone.  The caller has cleared the selection. */
 static gboolean
-update_layer (CeldPipeline *pipeline, CeldPicture picture, GimpLayer *layer, GError **error)
+update_layer (const Writing *w, const CeldResultLayer *l, GimpLayer *layer, GError **error)
 {
   GimpDrawable *drawable = GIMP_DRAWABLE (layer);
   gboolean      lock = gimp_layer_get_lock_alpha (layer), good;
@@ -133,7 +152,7 @@ update_layer (CeldPipeline *pipeline, CeldPicture picture, GimpLayer *layer, GEr
   gimp_layer_resize_to_image_size (layer);
   gimp_layer_set_lock_alpha (layer, FALSE);
   buffer = gimp_drawable_get_shadow_buffer (drawable);
-  good   = celd_pipeline_write (pipeline, picture, buffer, error);
+  good   = write_pixels (w, l, buffer, error);
   g_object_unref (buffer);
   gimp_drawable_merge_shadow (drawable, TRUE);
   gimp_drawable_update (drawable, 0, 0, gimp_drawable_get_width (drawable), gimp_drawable_get_height (drawable));
@@ -141,46 +160,49 @@ update_layer (CeldPipeline *pipeline, CeldPicture picture, GimpLayer *layer, GEr
   return good;
 }
 
+/* Of a new group, or always, the first new layer alone is visible. */
 static gboolean
-write_all (GimpImage *image, CeldPipeline *pipeline, GimpGroupLayer *group, guint wanted, GError **error)
+write_all (const Writing *w, GError **error)
 {
-  GimpItem **children = gimp_item_get_children (GIMP_ITEM (group));
-  gboolean   fresh = !children || !children[0], good = TRUE;
+  GimpItem **children = gimp_item_get_children (GIMP_ITEM (w->group));
+  gboolean   show = w->results->show || !children || !children[0], good = TRUE;
   int        position = 0;
 
   g_free (children);
-  for (gsize i = 0; i < CELD_POPUP_PICTURES && good; i++)
+  for (gsize i = 0; i < w->results->n && good; i++)
     {
-      GimpLayer *layer = find_layer (group, layers[i].picture);
-      gboolean   locked = layer && gimp_item_get_lock_content (GIMP_ITEM (layer));
+      const CeldResultLayer *l = &w->results->layer[i];
+      GimpLayer             *layer = find_layer (GIMP_ITEM (w->group), l->mark);
+      gboolean               locked = layer && gimp_item_get_lock_content (GIMP_ITEM (layer));
 
-      if (!(wanted & 1u << layers[i].picture))
+      if (!(w->wanted & 1u << l->picture))
         {
           if (layer && !locked)
-            gimp_image_remove_layer (image, layer);
+            gimp_image_remove_layer (w->image, layer);
           continue;
         }
       if (!layer)
-        good = add_layer (image, pipeline, group, i, position++, fresh, error);
+        good = add_layer (w, l, position++, show, error);
       else if (!locked)
-        good = update_layer (pipeline, layers[i].picture, layer, error);
+        good = update_layer (w, l, layer, error);
       if (layer)
-        position = gimp_image_get_item_position (image, GIMP_ITEM (layer)) + 1;
-      fresh = FALSE; /* of a new group the top layer alone is visible */
+        position = gimp_image_get_item_position (w->image, GIMP_ITEM (layer)) + 1;
+      show = FALSE;
     }
   return good;
 }
 
 /* Calls write_all with nothing selected, and selects again what was: merging would be limited to the selection. */
 static gboolean
-write_unselected (GimpImage *image, CeldPipeline *pipeline, GimpGroupLayer *group, guint wanted, GError **error)
+write_unselected (const Writing *w, GError **error)
 {
+  GimpImage   *image = w->image;
   GimpChannel *selection = gimp_selection_is_empty (image) ? NULL : gimp_selection_save (image);
   gboolean     good;
 
   if (selection)
     gimp_selection_none (image);
-  good = write_all (image, pipeline, group, wanted, error);
+  good = write_all (w, error);
   if (selection)
     {
       gimp_context_push ();
@@ -193,9 +215,9 @@ write_unselected (GimpImage *image, CeldPipeline *pipeline, GimpGroupLayer *grou
 }
 
 GimpGroupLayer *
-celd_results_write (GimpImage *image, CeldPipeline *pipeline, guint wanted, GError **error)
+celd_results_write (GimpImage *image, CeldPipeline *pipeline, const CeldResults *results, guint wanted, GError **error)
 {
-  GimpGroupLayer *group = get_group (image);
+  Writing w = { image, pipeline, get_group (image), results, wanted };
 
-  return write_unselected (image, pipeline, group, wanted, error) ? group : NULL;
+  return write_unselected (&w, error) ? w.group : NULL;
 }

@@ -49,15 +49,14 @@ check_image (GimpImage *image, GError **error)
 }
 
 /* Layers that a script does not name are found by their names. */
-static gboolean
-choose_layers (GimpImage *image, GimpProcedureConfig *config, gboolean by_name, GimpLayer *layer[CELD_N_LAYERS],
-               GError **error)
+static void
+find_layers (GimpImage *image, GimpProcedureConfig *config)
 {
-  GimpLayer *named[CELD_N_LAYERS];
+  GimpLayer *named[CELD_N_LAYERS], *layer[CELD_N_LAYERS];
 
   celd_layers_chosen (config, layer);
   celd_layers_find (image, named);
-  for (int role = 0; by_name && role < CELD_N_LAYERS; role++)
+  for (int role = 0; role < CELD_N_LAYERS; role++)
     {
       gboolean taken = FALSE;
 
@@ -65,11 +64,17 @@ choose_layers (GimpImage *image, GimpProcedureConfig *config, gboolean by_name, 
         taken = taken || (named[role] && layer[other] == named[role]);
       if (!layer[role] && (!taken || role == CELD_LAYER_DRAWING))
         layer[role] = named[role];
+      g_object_set (config, celd_layer_arguments[role], layer[role], NULL);
     }
+}
+
+static gboolean
+check_layers (GimpLayer *const layer[CELD_N_LAYERS], const CeldPathArrows *paths, GError **error)
+{
   if (!layer[CELD_LAYER_DRAWING])
     return fail (error, "There is no layer named \"Drawing\", and there are several that could be it. Name it, or "
                  "choose it in the dialog.");
-  if (!layer[CELD_LAYER_SCRIBBLES] && !layer[CELD_LAYER_ARROWS])
+  if (!layer[CELD_LAYER_SCRIBBLES] && !layer[CELD_LAYER_ARROWS] && !paths->n)
     return fail (error, "There is no layer with scribbles or arrows. Choose one in the dialog, or make them with "
                  "Cartoon Depth > Set up layers, and scribble over each part in a colour of its own.");
   return TRUE;
@@ -78,9 +83,10 @@ choose_layers (GimpImage *image, GimpProcedureConfig *config, gboolean by_name, 
 /* ------------------------------------------------------------------ running */
 
 static CeldPipeline *
-open_pipeline (GimpImage *image, GimpProcedureConfig *config, GimpLayer *const layer[CELD_N_LAYERS], GError **error)
+open_pipeline (GimpImage *image, GimpProcedureConfig *config, GimpLayer *const layer[CELD_N_LAYERS],
+               const CeldPathArrows *paths, GError **error)
 {
-  CeldPipelineInput input = { .settings = celd_settings_chosen (config) };
+  CeldPipelineInput input = { .settings = celd_settings_chosen (config), .arrow_path = paths->data };
   CeldPipeline     *pipeline = NULL;
   char             *relations = NULL;
 
@@ -118,36 +124,91 @@ write_in_one_step (const CeldProcedure *p, CeldPipeline *pipeline, GimpImage *im
   gimp_image_undo_group_start (image);
   layer = p->write (pipeline, image, config, error);
   select_again (image, selected);
-  celd_settings_remember (image, config);
+  celd_settings_remember (image, config, TRUE);
   gimp_image_undo_group_end (image);
   gimp_displays_flush ();
   g_free (selected);
   return layer;
 }
 
-static GimpLayer *
-read_and_make (const CeldProcedure *p, GimpImage *image, GimpProcedureConfig *config, gboolean by_name, GError **error)
+/* *written is NULL if nothing is written into an image. */
+static gboolean
+write_result (const CeldProcedure *p, CeldPipeline *pipeline, GimpImage *image, GimpProcedureConfig *config,
+              GimpLayer **written, GError **error)
 {
-  GimpLayer    *layer[CELD_N_LAYERS], *made = NULL;
-  Progress      progress = { 0, NULL };
-  CeldPipeline *pipeline;
-  char         *problems;
-
-  if (!choose_layers (image, config, by_name, layer, error))
-    return NULL;
-  gimp_progress_init ("Reading the layers");
-  pipeline = open_pipeline (image, config, layer, error);
-  if (pipeline && p->make (pipeline, image, config, show_progress, &progress, error))
+  if (p->write && !(p->elsewhere && p->elsewhere (image, config)))
+    *written = write_in_one_step (p, pipeline, image, config, error);
+  else
     {
-      problems = celd_pipeline_problems (pipeline);
-      made     = write_in_one_step (p, pipeline, image, config, error);
-      if (problems)
-        g_message ("%s", problems);
-      g_free (problems);
+      *written = p->write ? p->write (pipeline, image, config, error) : NULL;
+      celd_settings_remember (image, config, FALSE);
+    }
+  return *written || !p->write;
+}
+
+static void
+show_problems (CeldPipeline *pipeline, const CeldPathArrows *paths)
+{
+  char *problems = celd_pipeline_problems (pipeline);
+
+  if (problems)
+    g_message ("%s", problems);
+  if (paths->left_out)
+    g_message ("Strokes of the path Arrows that are no arrows were left out: %d. They are closed, or have one point. An "
+               "arrow goes from its first point, on the nearer part, to its last one.", paths->left_out);
+  g_free (problems);
+}
+
+static gboolean
+read_and_make (const CeldProcedure *p, GimpImage *image, GimpProcedureConfig *config, GimpLayer **written,
+               GError **error)
+{
+  CeldPathArrows paths = celd_paths_read (image);
+  GimpLayer     *layer[CELD_N_LAYERS];
+  Progress       progress = { 0, NULL };
+  CeldPipeline  *pipeline = NULL;
+  gboolean       good;
+
+  gimp_progress_init ("Reading the layers");
+  celd_layers_chosen (config, layer);
+  if (check_layers (layer, &paths, error))
+    pipeline = open_pipeline (image, config, layer, &paths, error);
+  good = pipeline && p->make (pipeline, image, config, show_progress, &progress, error);
+  if (good)
+    {
+      show_problems (pipeline, &paths);
+      good = write_result (p, pipeline, image, config, written, error);
     }
   celd_pipeline_free (pipeline);
   gimp_progress_end ();
-  return made;
+  g_free (paths.data);
+  return good;
+}
+
+static gboolean
+prepare_and_make (const CeldProcedure *p, GimpImage *image, GimpProcedureConfig *config, GimpLayer **written,
+                  GError **error)
+{
+  gboolean done = FALSE;
+
+  if (p->prepare && !p->prepare (image, config, &done, error))
+    return FALSE;
+  if (done)
+    celd_settings_remember (image, config, FALSE);
+  else if (!read_and_make (p, image, config, written, error))
+    return FALSE;
+  if (p->file_ending)
+    celd_file_remember (image, config, p);
+  return TRUE;
+}
+
+/* Sets what was kept with the image. */
+static void
+recall (const CeldProcedure *p, GimpImage *image, GimpProcedureConfig *config)
+{
+  celd_settings_recall (image, config);
+  if (p->file_ending)
+    celd_file_recall (image, config, p);
 }
 
 GimpValueArray *
@@ -157,21 +218,25 @@ celd_run (GimpProcedure *procedure, GimpRunMode run_mode, GimpImage *image, Gimp
   const CeldProcedure *p = run_data;
   gboolean             script = run_mode == GIMP_RUN_NONINTERACTIVE;
   GError              *error = NULL;
-  GimpLayer           *layer;
+  GimpLayer           *layer = NULL;
   GimpValueArray      *values;
 
   (void) drawables;
   gegl_init (NULL, NULL);
   if (!check_image (image, &error))
     return gimp_procedure_new_return_values (procedure, GIMP_PDB_CALLING_ERROR, error);
-  if (!script)
-    celd_settings_recall (image, config);
-  if (run_mode == GIMP_RUN_INTERACTIVE && !celd_dialog_run (procedure, config, image, p->title))
+  if (script)
+    find_layers (image, config);
+  else
+    recall (p, image, config);
+  if (run_mode == GIMP_RUN_INTERACTIVE && !celd_dialog_run (procedure, config, image, p))
     return gimp_procedure_new_return_values (procedure, GIMP_PDB_CANCEL, NULL);
-  layer = read_and_make (p, image, config, script, &error);
-  if (!layer)
+  if (!prepare_and_make (p, image, config, &layer, &error))
     return gimp_procedure_new_return_values (procedure, GIMP_PDB_EXECUTION_ERROR, error);
+  if (!script && layer && gimp_item_get_image (GIMP_ITEM (layer)) != image)
+    gimp_display_new (gimp_item_get_image (GIMP_ITEM (layer)));
   values = gimp_procedure_new_return_values (procedure, GIMP_PDB_SUCCESS, NULL);
-  g_value_set_object (gimp_value_array_index (values, 1), layer);
+  if (layer)
+    g_value_set_object (gimp_value_array_index (values, 1), layer);
   return values;
 }

@@ -42,52 +42,105 @@ static const struct { const char *label, *help; gboolean usual; } pictures[CELD_
   [CELD_PICTURE_ENHANCED] = { "Drawing with sha_dows", "The drawing with soft shadows behind nearer parts", FALSE },
 };
 
-#define ALL (CELD_FOR_POPUP | CELD_FOR_SPLIT | CELD_FOR_SUGGEST)
+#define ALL (CELD_FOR_POPUP | CELD_FOR_SPLIT | CELD_FOR_SUGGEST | CELD_FOR_STEREO | CELD_FOR_EXPORT | CELD_FOR_MESH)
 
-/* Settings of core, and who offers them; `choices` is the number of choices, if not all are. */
-static const struct { const char *name; guint offered; int choices; } offered[] = {
-  { "light-azimuth", CELD_FOR_POPUP, 0 }, { "light-elevation", CELD_FOR_POPUP, 0 }, { "ambient", CELD_FOR_POPUP, 0 },
-  { "light-model", CELD_FOR_POPUP, CELD_MODEL_MATCAP }, { "toon-steps", CELD_FOR_POPUP, 0 },
-  { "specular", CELD_FOR_POPUP, 0 }, { "rim-light", CELD_FOR_POPUP, 0 }, { "bulge", CELD_FOR_POPUP, 0 },
-  { "bevel", CELD_FOR_POPUP, 0 }, { "shadow-strength", CELD_FOR_POPUP, 0 }, { "shadow-size", CELD_FOR_POPUP, 0 },
-  { "shadow-offset", CELD_FOR_POPUP, 0 }, { "complete", CELD_FOR_SPLIT, 0 },
-  { "ink", ALL, 0 }, { "ink-threshold", ALL, 0 }, { "arrow-style", ALL, 0 }, { "hardness", ALL, 0 },
-  { "close-gaps", ALL, 0 }, { "flats", ALL, 0 }, { "same-colour", ALL, 0 }, { "suggest", ALL & ~CELD_FOR_SUGGEST, 0 },
-  { "on-cycle", ALL & ~CELD_FOR_SUGGEST, 0 }, { "expansion", ALL & ~CELD_FOR_SUGGEST, 0 },
+/* Settings of core, and who offers them.  `choices` is the number of choices, if not all are offered, and `more` one of
+ * the plug-in's own behind them; label and help replace those of core. */
+typedef struct
+{
+  const char       *name;
+  guint             offered;
+  int               choices;
+  const char       *label, *help;
+  CeldSettingChoice more;
+} Offered;
+
+static const Offered offered[] = {
+  { .name = "light-azimuth", .offered = CELD_FOR_POPUP },
+  { .name = "light-elevation", .offered = CELD_FOR_POPUP },
+  { .name = "ambient", .offered = CELD_FOR_POPUP },
+  { .name = "light-model", .offered = CELD_FOR_POPUP, .choices = CELD_MODEL_MATCAP,
+    .help = "How surfaces are lit: softly; more softly, so that light reaches around the parts; or in steps, as in cel "
+            "animation" },
+  { .name = "toon-steps", .offered = CELD_FOR_POPUP },
+  { .name = "specular", .offered = CELD_FOR_POPUP },
+  { .name = "rim-light", .offered = CELD_FOR_POPUP },
+  { .name = "bulge", .offered = CELD_FOR_POPUP },
+  { .name = "bevel", .offered = CELD_FOR_POPUP },
+  { .name = "shadow-strength", .offered = CELD_FOR_POPUP },
+  { .name = "shadow-size", .offered = CELD_FOR_POPUP },
+  { .name = "shadow-offset", .offered = CELD_FOR_POPUP },
+  { .name = "complete", .offered = CELD_FOR_SPLIT },
+  { .name = "stereo", .offered = CELD_FOR_STEREO, .label = "_Arrangement",
+    .help = "How the two views are shown: mixed for red and cyan glasses; beside or above each other; by alternating "
+            "rows or columns for a screen that separates them; one of them; or each in a layer of its own",
+    .more = { "two-layers", "Two layers, one for each eye" } },
+  { .name = "disparity", .offered = CELD_FOR_STEREO, .label = "_Eye distance",
+    .help = "How far the nearest and the farthest depth are displaced between the views, as a part of the width. More "
+            "than 3.3 % (0.033) strains the eyes" },
+  { .name = "convergence", .offered = CELD_FOR_STEREO, .label = "Con_vergence" },
+  { .name = "floating-window", .offered = CELD_FOR_STEREO },
+  { .name = "screen-width", .offered = CELD_FOR_STEREO },
+  { .name = "mesh-kind", .offered = CELD_FOR_MESH },
+  { .name = "mesh-size", .offered = CELD_FOR_MESH, .label = "_Longer side" },
+  { .name = "relief-bulge", .offered = CELD_FOR_MESH, .label = "_Roundness" },
+  { .name = "relief-depth", .offered = CELD_FOR_MESH, .label = "_Depth" },
+  { .name = "relief-from", .offered = CELD_FOR_MESH, .label = "One surface is round from",
+    .help = "Whether one surface bulges as if inflated, or follows the normals. Parts are always inflated" },
+  { .name = "mesh-plate", .offered = CELD_FOR_MESH, .label = "Thickness of the plate" },
+  { .name = "mesh-error", .offered = CELD_FOR_MESH, .label = "Deviation in pixels" },
+  { .name = "most-vertices", .offered = CELD_FOR_MESH, .label = "Most vertices" },
+  { .name = "ink", .offered = ALL },
+  { .name = "ink-threshold", .offered = ALL },
+  { .name = "arrow-style", .offered = ALL },
+  { .name = "hardness", .offered = ALL },
+  { .name = "close-gaps", .offered = ALL },
+  { .name = "flats", .offered = ALL },
+  { .name = "same-colour", .offered = ALL },
+  { .name = "suggest", .offered = ALL & ~CELD_FOR_SUGGEST },
+  { .name = "on-cycle", .offered = ALL & ~CELD_FOR_SUGGEST },
+  { .name = "expansion", .offered = ALL & ~CELD_FOR_SUGGEST },
 };
+
+/* Arguments that procedures add themselves, and that are kept as settings are. */
+static const char *const kept_arguments[] = { "relations", "new-image", "picture", "source" };
 
 /* ------------------------------------------------------------------ arguments */
 
 static void
-add_choice (GimpProcedure *procedure, const CeldSettingInfo *row, int choices)
+add_choice (GimpProcedure *procedure, const CeldSettingInfo *row, const Offered *o, const char *label, const char *help)
 {
   GimpChoice *choice = gimp_choice_new ();
 
-  for (int i = 0; i < (choices ? choices : (int) row->choices); i++)
+  for (int i = 0; i < (o->choices ? o->choices : (int) row->choices); i++)
     gimp_choice_add (choice, row->choice[i].nick, i, row->choice[i].label, NULL);
-  gimp_procedure_add_choice_argument (procedure, row->name, row->label, row->help, choice,
-                                      row->choice[(int) row->usual].nick, G_PARAM_READWRITE);
+  if (o->more.nick)
+    gimp_choice_add (choice, o->more.nick, (int) row->choices, o->more.label, NULL);
+  gimp_procedure_add_choice_argument (procedure, row->name, label, help, choice, row->choice[(int) row->usual].nick,
+                                      G_PARAM_READWRITE);
 }
 
 static void
-add_setting (GimpProcedure *procedure, const CeldSettingInfo *row, int choices)
+add_setting (GimpProcedure *procedure, const Offered *o)
 {
+  const CeldSettingInfo *row = celd_setting_find (o->name);
+  const char            *label = o->label ? o->label : row->label, *help = o->help ? o->help : row->help;
+
   switch (row->type)
     {
     case CELD_SETTING_NUMBER: /* sliders have the range that makes sense */
-      gimp_procedure_add_double_argument (procedure, row->name, row->label, row->help, row->shown.least,
-                                          row->shown.most, row->usual, G_PARAM_READWRITE);
+      gimp_procedure_add_double_argument (procedure, row->name, label, help, row->shown.least, row->shown.most,
+                                          row->usual, G_PARAM_READWRITE);
       break;
     case CELD_SETTING_INTEGER:
-      gimp_procedure_add_int_argument (procedure, row->name, row->label, row->help, (int) row->least, (int) row->most,
+      gimp_procedure_add_int_argument (procedure, row->name, label, help, (int) row->least, (int) row->most,
                                        (int) row->usual, G_PARAM_READWRITE);
       break;
     case CELD_SETTING_SWITCH:
-      gimp_procedure_add_boolean_argument (procedure, row->name, row->label, row->help, row->usual != 0,
-                                           G_PARAM_READWRITE);
+      gimp_procedure_add_boolean_argument (procedure, row->name, label, help, row->usual != 0, G_PARAM_READWRITE);
       break;
     case CELD_SETTING_CHOICE:
-      add_choice (procedure, row, choices);
+      add_choice (procedure, row, o, label, help);
       break;
     case CELD_SETTING_COLOUR:
     case CELD_SETTING_TEXT:
@@ -113,7 +166,7 @@ celd_settings_add_arguments (GimpProcedure *procedure, guint whose)
                                          pictures[i].usual, G_PARAM_READWRITE);
   for (gsize i = 0; i < G_N_ELEMENTS (offered); i++)
     if (offered[i].offered & whose)
-      add_setting (procedure, celd_setting_find (offered[i].name), offered[i].choices);
+      add_setting (procedure, &offered[i]);
   gimp_procedure_add_string_argument (procedure, "relations", "Relations",
                                       "Relations as text, beside arrows: 120,80 > 300,95 or #ff0000 > #0000ff", "",
                                       G_PARAM_READWRITE);
@@ -138,9 +191,17 @@ celd_settings_chosen (GimpProcedureConfig *config)
         whole = gimp_procedure_config_get_choice_id (config, row->name);
       else
         g_object_get (config, row->name, &whole, NULL);
-      celd_setting_set (row, row->type == CELD_SETTING_NUMBER ? number : whole, &settings);
+      if (!offered[i].more.nick || whole < (int) row->choices)
+        celd_setting_set (row, row->type == CELD_SETTING_NUMBER ? number : whole, &settings);
     }
   return settings;
+}
+
+void
+celd_file_add_argument (GimpProcedure *procedure, const char *help)
+{
+  gimp_procedure_add_file_argument (procedure, "file", "F_ile", help, GIMP_FILE_CHOOSER_ACTION_SAVE, TRUE, NULL,
+                                    G_PARAM_READWRITE);
 }
 
 guint
@@ -182,7 +243,10 @@ is_kept (const GParamSpec *spec)
   for (int i = 0; i < CELD_POPUP_PICTURES; i++)
     if (!strcmp (spec->name, celd_picture_arguments[i]))
       return TRUE;
-  return !strcmp (spec->name, "relations");
+  for (gsize i = 0; i < G_N_ELEMENTS (kept_arguments); i++)
+    if (!strcmp (spec->name, kept_arguments[i]))
+      return TRUE;
+  return FALSE;
 }
 
 static void
@@ -286,7 +350,7 @@ kept_file (GimpImage *image)
 }
 
 void
-celd_settings_remember (GimpImage *image, GimpProcedureConfig *config)
+celd_settings_remember (GimpImage *image, GimpProcedureConfig *config, gboolean undoable)
 {
   GKeyFile     *file = kept_file (image);
   guint         n;
@@ -300,8 +364,8 @@ celd_settings_remember (GimpImage *image, GimpProcedureConfig *config)
       keep_argument (file, G_OBJECT (config), specs[i]);
   keep_layers (file, image, config);
   text     = g_key_file_to_data (file, &length, NULL);
-  parasite = gimp_parasite_new (PARASITE, GIMP_PARASITE_PERSISTENT | GIMP_PARASITE_UNDOABLE, (guint32) length + 1,
-                                text);
+  parasite = gimp_parasite_new (PARASITE, GIMP_PARASITE_PERSISTENT | (undoable ? GIMP_PARASITE_UNDOABLE : 0u),
+                                (guint32) length + 1, text);
   gimp_image_attach_parasite (image, parasite);
   gimp_parasite_free (parasite);
   g_free (text);

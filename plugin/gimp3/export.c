@@ -1,0 +1,104 @@
+/* Export depth: depth or levels as EXR, PNG of 16 bits or TIFF, of the group's layer, or made anew.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "gimp3.h"
+
+#include "on-demand.h"
+
+#define ENDINGS ".exr, .png or .tif"
+
+enum { SOURCE_LAYER, SOURCE_DRAWING };
+
+static gboolean
+can_write (const char *path)
+{
+  return celd_io_can_write (path);
+}
+
+static CeldPicture
+picture_of (GimpProcedureConfig *config)
+{
+  return (CeldPicture) gimp_procedure_config_get_choice_id (config, "picture");
+}
+
+static gboolean
+save_layer (GimpImage *image, GimpLayer *layer, const char *path, GError **error)
+{
+  CeldPipelineLayer from = { gimp_drawable_get_buffer (GIMP_DRAWABLE (layer)), 0, 0 };
+  gboolean          good;
+
+  gimp_drawable_get_offsets (GIMP_DRAWABLE (layer), &from.x, &from.y);
+  good = celd_pipeline_save_layer (&from, gimp_image_get_width (image), gimp_image_get_height (image), path, error);
+  g_object_unref (from.buffer);
+  return good;
+}
+
+/* The layer that is exported as it is; NULL: there is none, or it is not wanted. */
+static GimpLayer *
+find_source (GimpImage *image, GimpProcedureConfig *config)
+{
+  if (gimp_procedure_config_get_choice_id (config, "source") == SOURCE_DRAWING)
+    return NULL;
+  return celd_results_find (image, celd_picture_arguments[picture_of (config)]);
+}
+
+static gboolean
+prepare (GimpImage *image, GimpProcedureConfig *config, gboolean *done, GError **error)
+{
+  char      *path = celd_file_chosen (config, can_write, ENDINGS, error);
+  GimpLayer *layer = path ? find_source (image, config) : NULL;
+  gboolean   good = path && (!layer || save_layer (image, layer, path, error));
+
+  *done = layer != NULL;
+  g_free (path);
+  return good;
+}
+
+static gboolean
+make (CeldPipeline *pipeline, GimpImage *image, GimpProcedureConfig *config, CeldPipelineProgress progress,
+      gpointer data, GError **error)
+{
+  char    *path = celd_file_chosen (config, can_write, ENDINGS, error);
+  gboolean good = path && celd_pipeline_make (pipeline, 1u << picture_of (config), progress, data, error) &&
+                  celd_pipeline_save (pipeline, picture_of (config), path, error);
+
+  (void) image;
+  g_free (path);
+  return good;
+}
+
+static void
+add_arguments (GimpProcedure *procedure)
+{
+  GimpChoice *picture = gimp_choice_new (), *source = gimp_choice_new ();
+
+  gimp_choice_add (picture, "depth", CELD_PICTURE_DEPTH, "Smooth depth", NULL);
+  gimp_choice_add (picture, "levels", CELD_PICTURE_LEVELS, "Levels: the depth of each part, in steps", NULL);
+  gimp_choice_add (source, "layer", SOURCE_LAYER, "The layer of the results, as it is", NULL);
+  gimp_choice_add (source, "drawing", SOURCE_DRAWING, "The drawing and its layers, anew", NULL);
+  gimp_procedure_add_choice_argument (procedure, "picture", "_Picture", "What is exported", picture, "depth",
+                                      G_PARAM_READWRITE);
+  gimp_procedure_add_choice_argument (procedure, "source", "_From",
+                                      "Where it comes from. A layer of an image with 8 bits has at most 256 steps. "
+                                      "Without a layer in the group Cartoon Depth it is always made anew", source,
+                                      "layer", G_PARAM_READWRITE);
+  celd_file_add_argument (procedure, "The file to write. The ending of its name is its kind: .exr has floats, the "
+                          "distance Z and the depth, .png has 16 bits, nearer is lighter, .tif has floats");
+  celd_settings_add_arguments (procedure, CELD_FOR_EXPORT);
+}
+
+const CeldProcedure celd_export_procedure = {
+  .name          = "plug-in-celdepth-export-depth",
+  .menu_label    = "_Export depth...",
+  .blurb         = "Writes depth to a file with enough steps for compositing and 3D programs: EXR, or PNG of 16 bits",
+  .help          = "Writes the layer Depth or Levels of the group with the results, as it is, or makes it from the "
+                   "drawing and its layers, as Pop-up does. The numbers are linear, and nearer is larger; EXR files "
+                   "also have the distance, channel Z.",
+  .add_arguments = add_arguments,
+  .run           = celd_run,
+  .title         = "Export depth",
+  .file_ending   = "-depth.exr",
+  .prepare       = prepare,
+  .make          = make,
+};

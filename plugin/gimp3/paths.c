@@ -1,0 +1,87 @@
+/* Paths of an image that are arrows: each stroke of a path named Arrows, from its first point to its last one.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "gimp3.h"
+
+#include <math.h>
+#include <string.h>
+
+/* The numbers of one point of a Bezier stroke: the handle before it, itself, the handle after it. */
+#define POINT 6
+
+/* GIMP calls a second path of the same name "Arrows #1". */
+static gboolean
+is_for_arrows (GimpPath *path)
+{
+  char    *name = gimp_item_get_name (GIMP_ITEM (path)), *number = strstr (name, " #");
+  gboolean arrows;
+
+  if (number && number[2] && strspn (number + 2, "0123456789") == strlen (number + 2))
+    *number = 0;
+  arrows = celd_layer_role_of_name (name) == CELD_LAYER_ARROWS;
+  g_free (name);
+  return arrows;
+}
+
+static void
+append_number (GString *data, double number)
+{
+  char text[G_ASCII_DTOSTR_BUF_SIZE];
+
+  g_string_append_printf (data, " %s", g_ascii_formatd (text, sizeof text, "%.4f", number));
+}
+
+/* Handles do not matter, since only the ends of arrows do.  FALSE if the stroke has no two ends. */
+static gboolean
+append_arrow (GString *data, const double *points, gsize n, gboolean closed)
+{
+  const double *from = points + 2, *to = points + n - 4;
+
+  if (closed || n < 2 * POINT || (fabs (from[0] - to[0]) < 1 && fabs (from[1] - to[1]) < 1))
+    return FALSE;
+  g_string_append (data, data->len ? " M" : "M");
+  append_number (data, from[0]);
+  append_number (data, from[1]);
+  g_string_append (data, " L");
+  append_number (data, to[0]);
+  append_number (data, to[1]);
+  return TRUE;
+}
+
+static void
+append_path (GimpPath *path, GString *data, CeldPathArrows *arrows)
+{
+  gsize n_strokes = 0;
+  int  *strokes = gimp_path_get_strokes (path, &n_strokes);
+
+  for (gsize i = 0; i < n_strokes; i++)
+    {
+      gsize    n = 0;
+      double  *points = NULL;
+      gboolean closed = FALSE;
+
+      gimp_path_stroke_get_points (path, strokes[i], &n, &points, &closed);
+      if (append_arrow (data, points, n, closed))
+        arrows->n++;
+      else
+        arrows->left_out++;
+      g_free (points);
+    }
+  g_free (strokes);
+}
+
+CeldPathArrows
+celd_paths_read (GimpImage *image)
+{
+  CeldPathArrows arrows = { NULL, 0, 0 };
+  GString       *data = g_string_new (NULL);
+  GimpPath     **paths = gimp_image_get_paths (image);
+
+  for (int i = 0; paths && paths[i]; i++)
+    if (is_for_arrows (paths[i]))
+      append_path (paths[i], data, &arrows);
+  g_free (paths);
+  arrows.data = g_string_free (data, FALSE);
+  return arrows;
+}
