@@ -25,12 +25,16 @@ static const CeldSettingInfo handles_row = {
 
 static const CeldProperty properties[] = {
   { .own = &result_row }, { .own = &handles_row },
-  { .name = "cell-size" }, { .name = "relations" }, { .name = "arrow-path" }, { .name = "arrow-style" },
-  { .name = "on-cycle" }, { .name = "suggest" }, { .name = "ink" }, { .name = "ink-threshold" }, { .name = "method" },
-  { .name = "close-gaps" }, { .name = "keep-necks" }, { .name = "hardness" }, { .name = "flats" },
-  { .name = "background" }, { .name = "background-colour" }, { .name = "seeds" }, { .name = "same-colour" },
-  { .name = "encoding" }, { .name = "near-level" }, { .name = "far-level" }, { .name = "expansion" },
-  { .name = "margin" },
+  { .name = "ink" }, { .name = "arrow-style" }, { .name = "cell-size" },
+  { .name = "more" },
+  { .name = "relations", .rare = TRUE }, { .name = "arrow-path", .rare = TRUE }, { .name = "on-cycle", .rare = TRUE },
+  { .name = "suggest", .rare = TRUE }, { .name = "ink-threshold", .rare = TRUE }, { .name = "hardness", .rare = TRUE },
+  { .name = "close-gaps", .rare = TRUE }, { .name = "keep-necks", .rare = TRUE }, { .name = "flats", .rare = TRUE },
+  { .name = "background", .rare = TRUE }, { .name = "background-colour", .rare = TRUE },
+  { .name = "seeds", .rare = TRUE }, { .name = "same-colour", .rare = TRUE }, { .name = "method", .rare = TRUE },
+  { .name = "expansion", .rare = TRUE }, { .name = "margin", .rare = TRUE },
+  { .name = "encoding", .rare = TRUE, .when = "result {levels}" }, { .name = "near-level", .rare = TRUE },
+  { .name = "far-level", .rare = TRUE },
   { 0 }
 };
 

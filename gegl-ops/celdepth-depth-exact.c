@@ -5,10 +5,14 @@
 #include "properties.h"
 
 static const CeldProperty properties[] = {
-  { .name = "ink" }, { .name = "flats" }, { .name = "background" }, { .name = "background-colour" },
-  { .name = "same-colour" }, { .name = "relations" }, { .name = "arrow-path" }, { .name = "arrow-style" },
-  { .name = "on-cycle" }, { .name = "encoding" }, { .name = "near-level" }, { .name = "far-level" },
-  { .name = "hold-gaps" }, { .name = "tolerance" }, { .name = "contrast" }, { .name = "weight-floor" },
+  { .name = "ink" }, { .name = "background" }, { .name = "background-colour" }, { .name = "arrow-style" },
+  { .name = "on-cycle" },
+  { .name = "more" },
+  { .name = "relations", .rare = TRUE }, { .name = "arrow-path", .rare = TRUE },
+  { .name = "same-colour", .rare = TRUE }, { .name = "flats", .rare = TRUE }, { .name = "encoding", .rare = TRUE },
+  { .name = "near-level", .rare = TRUE }, { .name = "far-level", .rare = TRUE }, { .name = "hold-gaps", .rare = TRUE },
+  { .name = "contrast", .rare = TRUE }, { .name = "weight-floor", .rare = TRUE },
+  { .name = "tolerance", .rare = TRUE },
   { 0 }
 };
 

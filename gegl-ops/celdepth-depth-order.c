@@ -5,9 +5,12 @@
 #include "properties.h"
 
 static const CeldProperty properties[] = {
-  { .name = "relations" }, { .name = "arrow-path" }, { .name = "arrow-style" }, { .name = "on-cycle" },
-  { .name = "suggest" }, { .name = "same-colour" }, { .name = "background" }, { .name = "background-colour" },
-  { .name = "encoding" }, { .name = "near-level" }, { .name = "far-level" }, { .name = "ink" },
+  { .name = "arrow-style" }, { .name = "suggest" }, { .name = "on-cycle" }, { .name = "same-colour" },
+  { .name = "more" },
+  { .name = "relations", .rare = TRUE }, { .name = "arrow-path", .rare = TRUE },
+  { .name = "background", .rare = TRUE }, { .name = "background-colour", .rare = TRUE },
+  { .name = "encoding", .rare = TRUE }, { .name = "near-level", .rare = TRUE }, { .name = "far-level", .rare = TRUE },
+  { .name = "ink", .rare = TRUE },
   { 0 }
 };
 

@@ -24,11 +24,14 @@ static const CeldProperty properties[] = {
   { .name = "flats", .label = "Scribbles are regions",
     .help = "The layer of scribbles has the regions of the frame before as flat colours, such as the labels that this "
             "operation made for it" },
-  { .name = "relations" }, { .name = "arrow-path" }, { .name = "arrow-style" }, { .name = "on-cycle" },
-  { .name = "ink" }, { .name = "ink-threshold" }, { .name = "method" }, { .name = "close-gaps" },
-  { .name = "keep-necks" }, { .name = "hardness" }, { .name = "background" }, { .name = "background-colour" },
-  { .name = "encoding" }, { .name = "near-level" }, { .name = "far-level" }, { .name = "expansion" },
-  { .name = "tolerance", .when = "result {depth}" },
+  { .name = "ink" }, { .name = "arrow-style" }, { .name = "background" }, { .name = "background-colour" },
+  { .name = "more" },
+  { .name = "relations", .rare = TRUE }, { .name = "arrow-path", .rare = TRUE }, { .name = "on-cycle", .rare = TRUE },
+  { .name = "ink-threshold", .rare = TRUE }, { .name = "hardness", .rare = TRUE },
+  { .name = "close-gaps", .rare = TRUE }, { .name = "keep-necks", .rare = TRUE }, { .name = "method", .rare = TRUE },
+  { .name = "expansion", .rare = TRUE }, { .name = "encoding", .rare = TRUE, .when = "result {levels, depth}" },
+  { .name = "near-level", .rare = TRUE }, { .name = "far-level", .rare = TRUE },
+  { .name = "tolerance", .rare = TRUE, .when = "result {depth}" },
   { 0 }
 };
 

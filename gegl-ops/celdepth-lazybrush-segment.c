@@ -18,10 +18,12 @@ static const CeldSettingInfo result_row = {
 
 static const CeldProperty properties[] = {
   { .own = &result_row },
-  { .name = "ink" }, { .name = "ink-threshold" }, { .name = "method" }, { .name = "close-gaps" },
-  { .name = "keep-necks" }, { .name = "hardness" }, { .name = "flats" }, { .name = "background" },
-  { .name = "background-colour" }, { .name = "seeds" }, { .name = "relations" }, { .name = "arrow-path" },
-  { .name = "arrow-style" },
+  { .name = "ink" }, { .name = "close-gaps" }, { .name = "hardness" }, { .name = "flats" }, { .name = "background" },
+  { .name = "background-colour" },
+  { .name = "more" },
+  { .name = "ink-threshold", .rare = TRUE }, { .name = "keep-necks", .rare = TRUE },
+  { .name = "method", .rare = TRUE }, { .name = "seeds", .rare = TRUE }, { .name = "relations", .rare = TRUE },
+  { .name = "arrow-path", .rare = TRUE }, { .name = "arrow-style", .rare = TRUE },
   { 0 }
 };
 

@@ -22,17 +22,19 @@ static const CeldSettingInfo result_row = {
 
 static const CeldProperty properties[] = {
   { .own = &result_row },
-  { .name = "bulge" }, { .name = "bevel" }, { .name = "creases" }, { .name = "frame-outline" },
-  { .name = "light-model" }, { .name = "toon-steps" }, { .name = "light-background" }, { .name = "light" },
-  { .name = "light-azimuth" },
-  { .name = "light-elevation" }, { .name = "ambient" }, { .name = "light-x" }, { .name = "light-y" },
-  { .name = "light-height" }, { .name = "specular" }, { .name = "shininess" }, { .name = "rim-light" },
-  { .name = "rim-power" },
+  { .name = "light-model" }, { .name = "toon-steps" }, { .name = "light-azimuth" }, { .name = "light-elevation" },
+  { .name = "ambient" }, { .name = "specular" }, { .name = "rim-light" }, { .name = "bulge" }, { .name = "bevel" },
   { .name = "shadow-size", .label = "Occlusion size", .when = "result {occlusion}",
     .help = "How far nearer parts block light from those behind them, as a fraction of the picture's diagonal" },
   { .name = "shadow-strength", .label = "Occlusion strength", .when = "result {occlusion}",
     .help = "The largest fraction of light that nearer parts block" },
-  { .name = "directx" }, { .name = "ink" }, { .name = "ink-threshold" }, { .name = "hold-gaps" },
+  { .name = "directx" },
+  { .name = "more" },
+  { .name = "light", .rare = TRUE }, { .name = "light-x", .rare = TRUE }, { .name = "light-y", .rare = TRUE },
+  { .name = "light-height", .rare = TRUE }, { .name = "shininess", .rare = TRUE },
+  { .name = "rim-power", .rare = TRUE }, { .name = "creases", .rare = TRUE },
+  { .name = "frame-outline", .rare = TRUE }, { .name = "light-background", .rare = TRUE },
+  { .name = "ink", .rare = TRUE }, { .name = "ink-threshold", .rare = TRUE }, { .name = "hold-gaps", .rare = TRUE },
   { 0 }
 };
 

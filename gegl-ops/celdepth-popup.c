@@ -23,14 +23,23 @@ static const CeldSettingInfo result_row = {
 
 static const CeldProperty properties[] = {
   { .own = &result_row },
-  { .name = "ink" }, { .name = "ink-threshold" }, { .name = "method" }, { .name = "close-gaps" },
-  { .name = "keep-necks" }, { .name = "hardness" }, { .name = "flats" }, { .name = "background" },
-  { .name = "background-colour" }, { .name = "seeds" }, { .name = "same-colour" }, { .name = "relations" },
-  { .name = "arrow-path" }, { .name = "arrow-style" }, { .name = "on-cycle" }, { .name = "suggest" },
-  { .name = "encoding" }, { .name = "near-level" }, { .name = "far-level" }, { .name = "expansion" },
-  { .name = "anchors", .when = "result {depth}" },
-  { .name = "hold-rest" }, { .name = "hold-gaps" }, { .name = "tolerance" }, { .name = "bulge" },
-  { .name = "light-azimuth" }, { .name = "light-elevation" }, { .name = "ambient" }, { .name = "directx" },
+  { .name = "ink" }, { .name = "background" }, { .name = "background-colour" }, { .name = "arrow-style" },
+  { .name = "suggest" },
+  { .name = "bulge", .when = "result {normals, shading}" }, { .name = "light-azimuth", .when = "result {shading}" },
+  { .name = "light-elevation", .when = "result {shading}" }, { .name = "ambient", .when = "result {shading}" },
+  { .name = "directx" },
+  { .name = "more" },
+  { .name = "relations", .rare = TRUE }, { .name = "arrow-path", .rare = TRUE },
+  { .name = "same-colour", .rare = TRUE }, { .name = "flats", .rare = TRUE }, { .name = "hardness", .rare = TRUE },
+  { .name = "close-gaps", .rare = TRUE }, { .name = "keep-necks", .rare = TRUE },
+  { .name = "ink-threshold", .rare = TRUE }, { .name = "seeds", .rare = TRUE }, { .name = "on-cycle", .rare = TRUE },
+  { .name = "expansion", .rare = TRUE }, { .name = "method", .rare = TRUE },
+  { .name = "encoding", .rare = TRUE, .when = "result {order, levels, depth}" },
+  { .name = "near-level", .rare = TRUE }, { .name = "far-level", .rare = TRUE },
+  { .name = "anchors", .rare = TRUE, .when = "result {depth}" },
+  { .name = "hold-rest", .rare = TRUE, .when = "result {depth}" },
+  { .name = "hold-gaps", .rare = TRUE, .when = "result {depth}" },
+  { .name = "tolerance", .rare = TRUE, .when = "result {depth}" },
   { 0 }
 };
 

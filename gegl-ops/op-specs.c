@@ -79,16 +79,30 @@ set_key (GParamSpec *spec, const char *key, const char *value)
     gegl_param_spec_set_property_key (spec, key, value);
 }
 
+/* When dialogs show the property, in GIMP's language of conditions; free it.  NULL: always. */
+static char *
+condition (const CeldProperty *property, const CeldSettingInfo *row)
+{
+  const char *when = property->when ? property->when : row->when;
+
+  if (!property->rare)
+    return g_strdup (when);
+  return when ? g_strdup_printf ("more & %s", when) : g_strdup ("more");
+}
+
 GParamSpec *
 celd_operation_specify (const CeldProperty *property, const CeldSettingInfo *row)
 {
   gboolean    angle = !g_strcmp0 (row->unit, "degree");
+  char       *visible = condition (property, row);
   GParamSpec *spec = make_spec (row, row->name, property->label ? property->label : row->label,
                                 property->help ? property->help : row->help);
 
-  set_key (spec, "visible", property->when ? property->when : row->when);
+  set_key (spec, "visible", visible);
   set_key (spec, "unit", row->unit);
   set_key (spec, angle ? "direction" : "axis", row->axis);
-  set_key (spec, "multiline", row->type == CELD_SETTING_TEXT ? "true" : NULL);
+  /* GIMP 3.0 hides a text of several lines without its label. */
+  set_key (spec, "multiline", row->type == CELD_SETTING_TEXT && !property->rare ? "true" : NULL);
+  g_free (visible);
   return spec;
 }

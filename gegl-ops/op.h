@@ -43,12 +43,14 @@ typedef struct
 } CeldPad;
 
 /* A property: the name of a setting of core or of a property in properties.c, or a row for this operation alone.
- * Members that are NULL are those of the row. */
+ * Members that are NULL are those of the row.  What is made comes first, then how, and rare properties last, after
+ * "more". */
 typedef struct
 {
   const char            *name;
   const CeldSettingInfo *own;      /* instead of a name: a row of this operation, over CeldOwnValues */
   const char            *label, *help, *when;
+  gboolean               rare;     /* shown only when the property "more" is on */
 } CeldProperty;
 
 /* The values of properties that are no settings of core. */
@@ -57,6 +59,7 @@ typedef struct
   int         result;              /* the kind of output: an enumeration of properties.h */
   int         unit, layer;
   bool        directx, flip;
+  bool        more;                /* shows rare properties, and changes nothing */
   float       x, y, scale, turn, between; /* of celdepth:compose */
   const char *relations, *arrow_path;
   const char *handles;             /* of celdepth:arap-deform */

@@ -19,6 +19,10 @@ static const CeldSettingInfo shared[] = {
   { .name = "directx", .label = "DirectX normals", .type = CELD_SETTING_SWITCH, .most = 1,
     .offset = offsetof (CeldOwnValues, directx), .when = "result {normals}",
     .help = "Green points down, as in DirectX, instead of up, as in OpenGL" },
+
+  { .name = "more", .label = "More settings", .type = CELD_SETTING_SWITCH, .most = 1,
+    .offset = offsetof (CeldOwnValues, more),
+    .help = "Shows settings that are rarely needed. The result stays the same" },
 };
 
 const CeldSettingInfo *

@@ -34,7 +34,7 @@ typedef enum
   .type = CELD_SETTING_CHOICE, .offset = offsetof (CeldOwnValues, member), .choice_type = #enumeration, \
   .choice = (list), .choices = G_N_ELEMENTS (list), .most = G_N_ELEMENTS (list) - 1
 
-/* The row of "relations", "arrow-path" or "directx"; NULL for other names. */
+/* The row of "relations", "arrow-path", "directx" or "more"; NULL for other names. */
 const CeldSettingInfo *celd_shared_property (const char *name);
 
 #endif

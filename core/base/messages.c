@@ -138,7 +138,7 @@ celd_problem_text (const CeldProblem *p, const CeldPalette *palette, const CeldR
       break;
     case CELD_PROBLEM_HIDDEN_UNSURE:
       snprintf (text, size, "It is unsure how the region%s goes on behind others at (%d, %d). If the guess is wrong, "
-                "paint what is hidden of it, in its colour, on a layer `hidden` (--hidden, or pad aux4 of Pop-up).",
+                "paint what is hidden of it, in its colour, on a layer named Hidden.",
                 label, p->x, p->y);
       break;
     }
@@ -157,6 +157,6 @@ celd_cycle_text (const CeldCycle *cycle, const CeldRelations *relations, char *t
     }
   if (cycle->label && used < size)
     snprintf (text + used, size - used, " That is so because #%02x%02x%02x has one depth at (%d, %d) and at (%d, %d); "
-              "same-colour=separate gives each its own.", cycle->colour[0], cycle->colour[1], cycle->colour[2],
+              "the setting 'Same colour: Separate depths' gives each its own.", cycle->colour[0], cycle->colour[1], cycle->colour[2],
               cycle->x[0], cycle->y[0], cycle->x[1], cycle->y[1]);
 }

@@ -129,7 +129,7 @@ cli_say_problems (const CeldProblems *problems, const CeldPalette *palette, cons
         char text[400];
 
         celd_problem_text (&problems->item[i], palette, relations, text, sizeof text);
-        cli_say ("%s", text);
+        cli_say ("%s%s", text, problems->item[i].kind == CELD_PROBLEM_HIDDEN_UNSURE ? " Give it by --hidden." : "");
       }
   if (n > MOST_PROBLEMS)
     cli_say ("There are %" G_GSIZE_FORMAT " more messages; --report writes all of them.", n - MOST_PROBLEMS);

@@ -11,20 +11,20 @@
 static const struct { const char *name; const char *pads; const char *properties; } operations[] = {
   { "celdepth:virtual-contours", "aux input", "result ink" },
   { "celdepth:lazybrush-segment", "aux2 aux input",
-    "result ink ink-threshold method close-gaps keep-necks hardness flats background background-colour seeds relations "
-    "arrow-path arrow-style" },
+    "result ink close-gaps hardness flats background background-colour more ink-threshold keep-necks method seeds "
+    "relations arrow-path arrow-style" },
   { "celdepth:depth-order", "aux3 aux2 aux input",
-    "relations arrow-path arrow-style on-cycle suggest same-colour background background-colour encoding near-level "
-    "far-level ink" },
+    "arrow-style suggest on-cycle same-colour more relations arrow-path background background-colour encoding "
+    "near-level far-level ink" },
   { "celdepth:depth-expand", "aux3 aux2 aux input", "result layer complete expansion ink" },
   { "celdepth:depth-smooth", "aux3 aux2 aux input", "ink ink-threshold hold-rest hold-gaps tolerance" },
   { "celdepth:depth-exact", "aux3 aux2 aux input",
-    "ink flats background background-colour same-colour relations arrow-path arrow-style on-cycle encoding near-level "
-    "far-level hold-gaps tolerance contrast weight-floor" },
+    "ink background background-colour arrow-style on-cycle more relations arrow-path same-colour flats encoding "
+    "near-level far-level hold-gaps contrast weight-floor tolerance" },
   { "celdepth:lumo-shade", "aux6 aux5 aux4 aux3 aux2 aux input",
-    "result bulge bevel creases frame-outline light-model toon-steps light-background light light-azimuth "
-    "light-elevation ambient light-x light-y light-height specular shininess rim-light rim-power shadow-size shadow-strength directx "
-    "ink ink-threshold hold-gaps" },
+    "result light-model toon-steps light-azimuth light-elevation ambient specular rim-light bulge bevel "
+    "shadow-size shadow-strength directx more light light-x light-y light-height shininess rim-power creases "
+    "frame-outline light-background ink ink-threshold hold-gaps" },
   { "celdepth:depth-enhance", "aux input",
     "result enhance shadow-size shadow-strength shadow-offset light-azimuth shadow-range" },
   { "celdepth:relief", "aux3 aux2 aux input",
@@ -33,17 +33,17 @@ static const struct { const char *name; const char *pads; const char *properties
     "stereo disparity convergence floating-window screen-width expansion margin ink" },
   { "celdepth:arap-register", "aux2 aux input", "result cell-size stiffness expansion ink" },
   { "celdepth:depth-propagate", "aux4 aux3 aux2 aux input",
-    "result flats relations arrow-path arrow-style on-cycle ink ink-threshold method close-gaps keep-necks hardness "
-    "background background-colour encoding near-level far-level expansion tolerance" },
+    "result flats ink arrow-style background background-colour more relations arrow-path on-cycle ink-threshold "
+    "hardness close-gaps keep-necks method expansion encoding near-level far-level tolerance" },
   { "celdepth:arap-deform", "aux5 aux4 aux3 aux2 aux input",
-    "result handles cell-size relations arrow-path arrow-style on-cycle suggest ink ink-threshold method close-gaps "
-    "keep-necks hardness flats background background-colour seeds same-colour encoding near-level far-level expansion "
-    "margin" },
+    "result handles ink arrow-style cell-size more relations arrow-path on-cycle suggest ink-threshold hardness "
+    "close-gaps keep-necks flats background background-colour seeds same-colour method expansion margin encoding "
+    "near-level far-level" },
   { "celdepth:compose", "aux3 aux2 aux input", "result between x y scale turn flip ink" },
   { "celdepth:popup", "aux4 aux3 aux2 aux input",
-    "result ink ink-threshold method close-gaps keep-necks hardness flats background background-colour seeds "
-    "same-colour relations arrow-path arrow-style on-cycle suggest encoding near-level far-level expansion anchors "
-    "hold-rest hold-gaps tolerance bulge light-azimuth light-elevation ambient directx" },
+    "result ink background background-colour arrow-style suggest bulge light-azimuth light-elevation ambient "
+    "directx more relations arrow-path same-colour flats hardness close-gaps keep-necks ink-threshold seeds "
+    "on-cycle expansion method encoding near-level far-level anchors hold-rest hold-gaps tolerance" },
 };
 
 static bool
@@ -109,6 +109,63 @@ properties_are_complete (void)
         }
       CHECK (!strcmp (list->str, operations[i].properties));
       g_string_free (list, TRUE);
+      g_free (specs);
+    }
+}
+
+/* ------------------------------------------------------------------ what dialogs show */
+
+static const char *
+condition_of (GParamSpec *spec)
+{
+  const char *condition = gegl_param_spec_get_property_key (spec, "visible");
+
+  return condition ? condition : "";
+}
+
+/* Whether "property {choice, choice}" is so, or "", while all have their defaults. */
+static bool
+holds_by_default (const char *operation, const char *condition)
+{
+  char **part = g_strsplit_set (condition, "{}", 3);
+  bool   holds = !*condition;
+
+  if (part[0] && part[1])
+    {
+      GParamSpec      *spec = gegl_operation_find_property (operation, g_strstrip (part[0]));
+      const GEnumValue *usual = g_enum_get_value (G_PARAM_SPEC_ENUM (spec)->enum_class,
+                                                  G_PARAM_SPEC_ENUM (spec)->default_value);
+      char            **choice = g_strsplit (part[1], ", ", -1);
+
+      holds = g_strv_contains ((const gchar *const *) choice, usual->value_nick);
+      g_strfreev (choice);
+    }
+  g_strfreev (part);
+  return holds;
+}
+
+/* Behind `more`, and nothing else is there; so that no dialog opens with more than ten. */
+static void
+rare_properties_are_folded (void)
+{
+  for (size_t i = 0; i < G_N_ELEMENTS (operations); i++)
+    {
+      guint        n;
+      GParamSpec **specs = gegl_operation_list_properties (operations[i].name, &n);
+      int          shown = 0;
+      bool         folded = false;
+
+      for (guint k = 0; k < n; k++)
+        {
+          const char *condition = condition_of (specs[k]);
+          bool        rare = g_str_has_prefix (condition, "more");
+
+          CHECK (rare == folded);
+          CHECK (!rare || !condition[4] || g_str_has_prefix (condition, "more & "));
+          shown += !rare && holds_by_default (operations[i].name, condition);
+          folded = folded || !strcmp (g_param_spec_get_name (specs[k]), "more");
+        }
+      CHECK (shown <= 10);
       g_free (specs);
     }
 }
@@ -238,6 +295,7 @@ main (int argc, char **argv)
   RUN (every_operation_is_described);
   RUN (pads_are_those_of_the_documentation);
   RUN (properties_are_complete);
+  RUN (rare_properties_are_folded);
   RUN (choices_have_the_documented_nicks);
   RUN (defaults_are_those_of_core);
   RUN (values_are_read_as_they_were_set);

@@ -11,8 +11,8 @@ gi.require_version('Gegl', '0.4')
 gi.require_version('Gimp', '3.0')
 from gi.repository import Gegl, Gimp  # noqa: E402
 import numpy as np  # noqa: E402
-from people import (ERRORS, EXAMPLES, OUT, PRECISIONS, QUIET, Image, all_layers, by_name, check, compare, file,  # noqa: E402
-                    open_people, pixels, pop_up, reference, results, run)
+from people import (ERRORS, EXAMPLES, OUT, PICTURES, PRECISIONS, QUIET, Image, all_layers, by_name, check,  # noqa: E402
+                    compare, file, open_people, pixels, pop_up, reference, results, run)
 
 # ------------------------------------------------------------------ the checks
 
