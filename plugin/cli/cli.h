@@ -66,7 +66,7 @@ typedef struct
   char       **inputs, **keys, **key_scribbles, **key_arrows; /* of propagate */
   char       **command_line;  /* as it was given, without --emit-slurm */
   char        *labels_dir, *depth_dir, *emit_slurm, *review, *output_dir;
-  bool         quiet, directx, watch, help;
+  bool         quiet, progress, directx, watch, help;
   CliStreams   streams;
   int          done_frames, frames_in_all; /* of a clip, for the progress bar; 0 in all: there is one input */
   bool         background_colour; /* whether a background colour was given */

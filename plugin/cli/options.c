@@ -9,7 +9,7 @@
 #include <string.h>
 
 /* Options without a value. */
-typedef struct { gboolean quiet, directx, watch, help; } CliFlags;
+typedef struct { gboolean quiet, progress, directx, watch, help; } CliFlags;
 
 /* Prints why the command line cannot be parsed, and which option was probably meant. */
 static void
@@ -127,14 +127,18 @@ parse (const CliCommand *command, int *argc, char ***argv, CliOptions *options)
   cli_list_add (&list, "Other", (GOptionEntry) {
     "quiet", 'q', 0, G_OPTION_ARG_NONE, &flags.quiet, "print errors only, no progress and no warnings", NULL });
   cli_list_add (&list, "Other", (GOptionEntry) {
+    "progress", 0, 0, G_OPTION_ARG_NONE, &flags.progress,
+    "show progress also where standard error is no terminal, for programs that run celdepth", NULL });
+  cli_list_add (&list, "Other", (GOptionEntry) {
     "help", 'h', 0, G_OPTION_ARG_NONE, &flags.help, "print this text", NULL });
   good = check_values (&list, *argc, *argv) && parse_words (&list, argc, argv, options);
   if (good && flags.help)
     cli_help_print (command, &list);
-  options->help    = flags.help;
-  options->quiet   = flags.quiet;
-  options->directx = flags.directx;
-  options->watch   = flags.watch;
+  options->help     = flags.help;
+  options->quiet    = flags.quiet;
+  options->progress = flags.progress;
+  options->directx  = flags.directx;
+  options->watch    = flags.watch;
   g_array_free (list.entries, TRUE);
   g_ptr_array_free (list.sections, TRUE);
   return good;

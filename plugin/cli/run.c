@@ -174,7 +174,7 @@ cli_run_begin (CliRun *run, const CliOptions *options, const char *stages)
   *run = (CliRun) {
     .host    = { progress, each, run },
     .timings = g_array_new (FALSE, FALSE, sizeof (CliTiming)),
-    .visible = !options->quiet && isatty (STDERR_FILENO),
+    .visible = !options->quiet && (options->progress || isatty (STDERR_FILENO)),
     .plan    = g_strsplit (stages, " ", 0),
     .threads = cli_threads_new (),
     .done_frames = options->done_frames,

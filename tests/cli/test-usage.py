@@ -190,6 +190,10 @@ class Usage(Test):
         self.assertGreater(done[-1], 50)
         result = subprocess.run(words, cwd=self.folder, capture_output=True, check=True)
         self.assertNotIn(b'%', result.stderr)
+        asked = subprocess.run([*words, '--progress'], cwd=self.folder, capture_output=True, check=True)
+        done = [int(number) for number in re.findall(rb'(\d+) %', asked.stderr)]
+        self.assertEqual(done, sorted(done))
+        self.assertGreater(done[-1], 50)
 
     def test_completion(self):
         """Options and values are those of --help, also where a list of values takes two lines."""
