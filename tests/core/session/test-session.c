@@ -251,8 +251,8 @@ equal_input_invalidates_nothing (void)
   celd_session_free (s);
 }
 
-/* Left of a straight grey line is red, right of a jagged black one is blue.  What lies between is red's while grey
- * ink costs more than black, and blue's when both cost the same, because the grey line is the shorter one. */
+/* Left of a straight grey line, two pixels wide, is red, right of a jagged black one is blue.  What lies between is red's
+ * while grey ink costs more than black, and blue's when both cost the same, because the grey line is the shorter one. */
 static void
 a_new_ink_threshold_changes_the_labels (void)
 {
@@ -263,7 +263,7 @@ a_new_ink_threshold_changes_the_labels (void)
   CeldLabels   labels;
 
   for (int i = 0; i < W * H; i++)
-    luma[i] = i % W == 12 ? 0.4f : 1.f;
+    luma[i] = i % W == 12 || i % W == 13 ? 0.4f : 1.f;
   for (int y = 0; y < H; y++)
     for (int x = 28; x <= 32; x++)
       if (y % 4 == 0 || x == (y / 4 % 2 ? 28 : 32))
