@@ -104,6 +104,9 @@ CeldStatus celd_scribble_restore (CeldScribbleLayer *r, const CeldHost *host, Ce
 /* scribble-clusters.c: fills in cluster, from colours whose solid and interior pixels are counted. */
 CeldStatus celd_scribble_clusters (CeldScribbleLayer *r, const CeldHost *host);
 
+/* gradients.c: makes each gradient of a flat colouring one colour; needs the colours, and overwrites label and kind. */
+CeldStatus celd_scribble_gradients (CeldScribbleLayer *r);
+
 /* scribble-clusters.c: clusters that occur only where two translucent strokes overlap are labels no longer. */
 CeldStatus celd_scribble_overlaps (CeldScribbleLayer *r);
 

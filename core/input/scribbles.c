@@ -217,6 +217,8 @@ celd_scribbles_read (const CeldPaint *scribbles, const CeldSettings *settings, c
   r.label = celd_alloc (r.pixels, sizeof *r.label);
   r.kind = celd_alloc (r.pixels, 1);
   status = r.id && r.label && r.kind ? celd_scribble_colours (&r, settings->flats, &begin) : CELD_NO_MEMORY;
+  if (status == CELD_OK && settings->flats)
+    status = celd_scribble_gradients (&r);
   if (status != CELD_OK)
     goto done;
 
