@@ -41,6 +41,26 @@ read_labels (const CeldLabels *labels, CeldRect changed, CeldContourPens *pens)
 
 /* ------------------------------------------------------------------ owners */
 
+/* The width of the line that ink shows beside the outline of its front label along all of the contact, in pixels;
+ * <= 0 if there is none. */
+static float
+second_line_width (const CeldContourPens *pens, const CeldEdgePoint *p, const CeldEdgePen *pen)
+{
+  uint32_t front = celd_pen_front (pens, pen);
+
+  return pen->thickened ? p->thickness - pens->max_width[front - 1] : 0;
+}
+
+/* Is that line the outline of the farther label, no wider than its pen? */
+static bool
+shows_back_line (const CeldContourPens *pens, const CeldEdgePoint *p, const CeldEdgePen *pen)
+{
+  uint32_t front = celd_pen_front (pens, pen), back = front == pen->near ? pen->far : pen->near;
+  float    line = second_line_width (pens, p, pen), width = pen->thickened ? pens->typical_width[back - 1] : 0;
+
+  return width > 0 && line <= PLAIN_THICKNESS * width + THICKNESS_TOLERANCE;
+}
+
 /* The owner of a point as far as its own thickness shows; 0 if the ink contains other lines. */
 static uint32_t
 local_owner (const CeldContourPens *pens, const CeldEdgePoint *p, const CeldEdgePen *pen)
@@ -49,33 +69,33 @@ local_owner (const CeldContourPens *pens, const CeldEdgePoint *p, const CeldEdge
 
   if (!pen->near || pen->near == pen->far)
     return 0;
+  if (front && pen->thickened)
+    return front == pen->near && shows_back_line (pens, p, pen) ? front : 0;
   if (front)
-    return !pen->thickened && p->thickness <= PLAIN_THICKNESS * pen->width + THICKNESS_TOLERANCE ? front : 0;
+    return p->thickness <= PLAIN_THICKNESS * pen->width + THICKNESS_TOLERANCE ? front : 0;
   return pen->far && p->thickness > 2 * pen->width + THICKNESS_TOLERANCE ? 0 : pen->near; /* equal levels, or ink
                                                                                            * that leaves the picture */
 }
 
-/* May a point take the owner of another one at that distance along the edge?  A line inside a region belongs to the
- * region, except near the tip where both sides of a nearer region's outline meet. */
-static bool
-accepts_owner (const CeldEdgePen *pen, const CeldEdgePen *from, float distance)
-{
-  return pen->near != pen->far || distance < TIP_WIDTHS * from->width;
-}
-
-/* Does the ink between a region and a nearer one that lies on its outline show a line of the region's own, no wider
- * than its pen? */
+/* Does the ink between a region and a nearer one that lies on its outline show a line of the region's own? */
 static bool
 shows_own_line (const CeldContourPens *pens, const CeldEdgePoint *p, const CeldEdgePen *pen)
 {
-  uint32_t front = celd_pen_front (pens, pen);
-  float    own, rest;
+  return celd_pen_front (pens, pen) != pen->near && second_line_width (pens, p, pen) > THICKNESS_TOLERANCE &&
+         shows_back_line (pens, p, pen);
+}
 
-  if (!pen->thickened || front == pen->near)
-    return false;
-  own  = pens->typical_width[pen->near - 1];
-  rest = p->thickness - pens->max_width[front - 1];
-  return own > 0 && rest > THICKNESS_TOLERANCE && rest <= PLAIN_THICKNESS * own + THICKNESS_TOLERANCE;
+/* May a point take the owner of another one at that distance along the edge?  A line inside a region, or a nearer line
+ * that covers the ink between two regions, ends where both sides of its outline meet; between two regions it cannot
+ * be where their own lines are seen. */
+static bool
+accepts_owner (const CeldContourPens *pens, const CeldEdgePoint *p, const CeldEdgePen *pen, const CeldEdgePen *from,
+               float distance)
+{
+  uint32_t front = celd_pen_front (pens, pen);
+
+  return (front && pens->level[from->owner - 1] <= pens->level[front - 1]) ||
+         (distance < TIP_WIDTHS * from->width && !shows_own_line (pens, p, pen));
 }
 
 /* May a point behind a corner take that label: is it the paper's own, whose line is seen, or does it lie between the
@@ -109,7 +129,7 @@ propagate_owners (const CeldEdgeLoop *loop, CeldContourPens *pens, bool round, f
 
         if (pen[a].owner && total < distance[b] &&
             (round ? accepts_owner_round_corner (pens, &point[b], &pen[b], pen[a].owner)
-                   : !point[a].corner && accepts_owner (&pen[b], &pen[a], total)))
+                   : !point[a].corner && accepts_owner (pens, &point[b], &pen[b], &pen[a], total)))
           {
             distance[b]       = total;
             pen[b].owner = pen[a].owner;

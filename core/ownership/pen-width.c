@@ -1,10 +1,12 @@
 /* Widths of pens.
  *
  * Between two regions the thickness of the ink is the width of the nearer one's pen, unless other lines run into it,
- * which only makes it thicker.  A region may lie on the outline of another one along all of their contact, like a sheet
- * of paper on a thick cover.  So the width is taken from the neighbours where the ink is thinnest, and there from the
- * thinner points, each a median over about a pen's width of the line.  It changes slowly along the line; how much
- * larger than typical it may become depends on how much it varies in all.
+ * which only makes it thicker.  A region may lie on the outline of another one, or beside it, along all of their
+ * contact, like a sheet of paper on a thick cover, or two sides of a box.  Such a second line shows where the ink is
+ * thicker than at the thinnest contacts, by more than the pen varies there and than pens of this drawing vary.  The
+ * width is taken from the other contacts, and there from the thinner points, each a median over about a pen's width of
+ * the line.  It changes slowly along the line; how much larger than typical it may become depends on how much it varies
+ * in all.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -17,12 +19,14 @@
 #define THIN_QUANTILE      0.125 /* quantile that tells how much the width varies; chosen */
 #define SPREAD_FACTOR      3.f   /* the pen may be thicker than typical by so many times what it is thinner in other
                                   * places; chosen */
-#define MIN_POINTS         24    /* points of the edges of a contact that shows the width of a pen; chosen */
-#define MIN_CONTACT        0.05f /* share of such a contact in the outline, at least; chosen */
-#define DISTINCT_SPREADS   3.f   /* a contact is thickened if it is thicker than the thinnest one by so many times what
-                                  * that one varies, */
+#define MIN_POINTS         24    /* points of the edges of a contact, at least, that shows the width of a pen; chosen */
+#define SAMPLE_SHARE       0.25f /* share of the outline over which a pen's variation is measured, at least; chosen */
+#define MIN_SAMPLE         0.1f  /* the same if the other contacts are far thicker; chosen */
+#define THICK_QUANTILE     0.9   /* quantile of thickness where a pen is widest, but for junctions; chosen */
+#define MIN_WIDER          1.4f  /* ratio of thickness at two contacts that are not one pen's alone; chosen */
+#define DISTINCT_SPREADS   1.5f  /* a contact is thickened if it is thicker than the pen's sample by so many times what
+                                  * pens vary, */
 #define DISTINCT_PIXELS    0.5f  /* and so many pixels; chosen */
-#define MIN_WIDER          1.4f  /* ratio of two pens that are not one brush; chosen */
 #define SUBPIXELS          16.f  /* widths are rounded to 1/16 pixel, the precision of edges */
 #define MIN_SWELL          1.04f /* ratio to the typical width that is allowed in any case; chosen */
 #define MAX_SWELL          1.25f /* ratio to the typical width that is never exceeded; chosen */
@@ -88,9 +92,26 @@ set_pen_widths (float *width, size_t n, float *typical, float *max)
 
 typedef struct { uint32_t level, label; } PlacedLabel;
 
+/* The contact of a label with one label behind it: the points first .. end - 1 of PenSort, and their typical
+ * thickness. */
+typedef struct { size_t first, end; float typical; } PenContact;
+
+/* What a label's thinnest contacts show of its pen: typical thickness, how much that varies, both in pixels, and the
+ * number of their points; 0: nothing. */
+typedef struct { float typical, spread; size_t points; } PenSample;
+
 /* Work space: points sorted by front label, those of label k at from[k] .. from[k + 1] - 1, and among these by the
- * label behind; widths of some of them; labels from back to front. */
-typedef struct { uint32_t *point, *spare; size_t *from; float *width; PlacedLabel *place; } PenSort;
+ * label behind; widths of some of them; labels from back to front; samples of labels, at k - 1; contacts of one
+ * label. */
+typedef struct
+{
+  uint32_t    *point, *spare;
+  size_t      *from;
+  float       *width;
+  PlacedLabel *place;
+  PenSample   *sample;
+  PenContact  *contact;
+} PenSort;
 
 /* The label behind the front label; any of both if there is no front label. */
 static uint32_t
@@ -133,59 +154,125 @@ read_contact (const CeldContourPens *pens, const PenSort *s, size_t first, size_
   return i;
 }
 
+static int
+compare_contacts (const void *a, const void *b)
+{
+  const PenContact *p = a, *q = b;
+
+  return p->typical != q->typical ? (p->typical > q->typical) - (p->typical < q->typical)
+                                  : (p->first > q->first) - (p->first < q->first);
+}
+
+/* Lists the contacts of a label, the thinnest first; returns their number. */
+static size_t
+list_contacts (const CeldContourPens *pens, const PenSort *s, uint32_t label)
+{
+  size_t n = 0;
+
+  for (size_t i = s->from[label], next; i < s->from[label + 1]; i = next, n++)
+    {
+      next          = read_contact (pens, s, i, s->from[label + 1], s->width);
+      s->contact[n] = (PenContact) { i, next, quantile (s->width, next - i, TYPICAL_QUANTILE) };
+    }
+  qsort (s->contact, n, sizeof *s->contact, compare_contacts);
+  return n;
+}
+
+/* Samples the pen of a label at its thinnest contacts, as many as make up a good part of its outline, or less if the
+ * others are far thicker. */
+static PenSample
+sample_pen (const CeldContourPens *pens, const PenSort *s, uint32_t label)
+{
+  size_t contacts = list_contacts (pens, s, label), points = s->from[label + 1] - s->from[label], n = 0;
+  float  thinnest = 0, typical;
+
+  for (size_t k = 0; k < contacts && (float) n < SAMPLE_SHARE * (float) points; k++)
+    {
+      const PenContact *c = &s->contact[k];
+
+      if (c->end - c->first < MIN_POINTS)
+        continue;
+      if ((float) n > MIN_SAMPLE * (float) points && c->typical > MIN_WIDER * thinnest)
+        break;
+      thinnest = n ? thinnest : c->typical;
+      n       += read_contact (pens, s, c->first, c->end, s->width + n) - c->first;
+    }
+  if (!n)
+    return (PenSample) { 0 };
+  typical = quantile (s->width, n, TYPICAL_QUANTILE);
+  return (PenSample) { typical, quantile (s->width, n, THICK_QUANTILE) - typical, n };
+}
+
+typedef struct { float variation; size_t points; } Variation;
+
+static int
+compare_variations (const void *a, const void *b)
+{
+  const Variation *p = a, *q = b;
+
+  return (p->variation > q->variation) - (p->variation < q->variation);
+}
+
+/* How much the pens of the drawing vary, as a share of their width: the median over all outlines. */
+static CeldStatus
+find_variation (const PenSort *s, size_t labels, float *variation)
+{
+  Variation *list = celd_alloc (labels, sizeof *list);
+  size_t     n = 0, points = 0, below = 0;
+
+  if (!list)
+    return CELD_NO_MEMORY;
+  for (size_t k = 0; k < labels; k++)
+    if (s->sample[k].typical > 0)
+      {
+        points   += s->sample[k].points;
+        list[n++] = (Variation) { s->sample[k].spread / s->sample[k].typical, s->sample[k].points };
+      }
+  qsort (list, n, sizeof *list, compare_variations);
+  *variation = 0;
+  for (size_t k = 0; k < n && 2 * below < points; below += list[k++].points)
+    *variation = list[k].variation;
+  celd_free (list);
+  return CELD_OK;
+}
+
 /* Typical thickness of contacts that shows another line beside the pen's: more than `least`, at most `most`. */
 typedef struct { float least, most; } Thickened;
 
-/* Such a contact is clearly thicker than the one where the ink is thinnest, but not thicker than the widest pen of a
- * label behind, or than both pens side by side if that one is clearly wider.  Otherwise the pen itself varies, as
- * brushes do. */
+/* Such a contact is clearly thicker than the pen is where it is thinnest, but not thicker than both pens side by side.
+ * Otherwise the pen itself varies, as brushes do: as much as in its sample, or as others of the drawing. */
 static Thickened
-find_thickened (const CeldContourPens *pens, const PenSort *s, size_t first, size_t end)
+find_thickened (const CeldContourPens *pens, const PenSort *s, uint32_t label, size_t contacts, float variation)
 {
-  size_t    least = (size_t) fmaxf (MIN_POINTS, MIN_CONTACT * (float) (end - first));
-  float     thinnest = INFINITY, widest = 0;
-  Thickened range = { INFINITY, 0 };
+  PenSample sample = s->sample[label - 1];
+  float     widest = 0;
 
-  for (size_t i = first, next; i < end; i = next)
-    {
-      float typical;
-
-      widest = fmaxf (widest, pens->typical_width[pen_back (pens, &pens->pen[s->point[i]]) - 1]);
-      next   = read_contact (pens, s, i, end, s->width);
-      if (next - i < least)
-        continue;
-      typical = quantile (s->width, next - i, TYPICAL_QUANTILE);
-      if (typical < thinnest)
-        {
-          thinnest    = typical;
-          range.least = typical + DISTINCT_PIXELS +
-                        DISTINCT_SPREADS * (quantile (s->width, next - i, 1 - TYPICAL_QUANTILE) - typical);
-        }
-    }
-  range.most = DISTINCT_PIXELS + widest + (widest >= MIN_WIDER * thinnest ? thinnest : 0);
-  return range;
+  for (size_t k = 0; k < contacts; k++)
+    widest = fmaxf (widest, pens->typical_width[pen_back (pens, &pens->pen[s->point[s->contact[k].first]]) - 1]);
+  if (!sample.points)
+    return (Thickened) { INFINITY, 0 };
+  return (Thickened) { sample.typical + DISTINCT_PIXELS +
+                       DISTINCT_SPREADS * fmaxf (sample.spread, variation * sample.typical),
+                       sample.typical + DISTINCT_PIXELS + widest };
 }
 
 /* Measures the pen of a label at the contacts where the ink shows it alone, and marks the points of the others; the
  * pens of all labels behind have to be measured before. */
 static void
-measure_label (uint32_t label, PenSort *s, CeldContourPens *pens)
+measure_label (uint32_t label, float variation, PenSort *s, CeldContourPens *pens)
 {
-  size_t    first = s->from[label], end = s->from[label + 1], n = 0;
-  Thickened range = find_thickened (pens, s, first, end);
+  size_t    n = 0, contacts = list_contacts (pens, s, label);
+  Thickened range = find_thickened (pens, s, label, contacts, variation);
 
-  for (size_t i = first, next; i < end; i = next)
+  for (size_t k = 0; k < contacts; k++)
     {
-      float typical = 0;
+      const PenContact *c = &s->contact[k];
 
-      next = read_contact (pens, s, i, end, s->width + n);
-      if (range.least < range.most)
-        typical = quantile (s->width + n, next - i, TYPICAL_QUANTILE);
-      if (!(typical > range.least && typical <= range.most))
-        n += next - i;
+      if (!(c->typical > range.least && c->typical <= range.most))
+        n += read_contact (pens, s, c->first, c->end, s->width + n) - c->first;
       else
-        for (size_t k = i; k < next; k++)
-          pens->pen[s->point[k]].thickened = 1;
+        for (size_t i = c->first; i < c->end; i++)
+          pens->pen[s->point[i]].thickened = 1;
     }
   if (n)
     set_pen_widths (s->width, n, &pens->typical_width[label - 1], &pens->max_width[label - 1]);
@@ -199,30 +286,49 @@ compare_places (const void *a, const void *b)
   return (p->level > q->level) - (p->level < q->level);
 }
 
+/* Samples the pens, and then measures them from back to front. */
+static CeldStatus
+measure_labels (PenSort *s, CeldContourPens *pens)
+{
+  float      variation;
+  CeldStatus status;
+
+  for (uint32_t k = 1; k <= pens->n; k++)
+    {
+      s->place[k - 1]  = (PlacedLabel) { pens->level[k - 1], k };
+      s->sample[k - 1] = sample_pen (pens, s, k);
+    }
+  qsort (s->place, pens->n, sizeof *s->place, compare_places);
+  status = find_variation (s, pens->n, &variation);
+  for (size_t k = 0; k < pens->n && status == CELD_OK; k++)
+    measure_label (s->place[k].label, variation, s, pens);
+  return status;
+}
+
 CeldStatus
 celd_pen_widths_measure (CeldContourPens *pens)
 {
   size_t     points = pens->edges->n_points;
   PenSort    s = { celd_alloc (points + 1, sizeof *s.point), celd_alloc (points + 1, sizeof *s.spare),
                    celd_alloc (pens->n + 2, sizeof *s.from), celd_alloc (points + 1, sizeof *s.width),
-                   celd_alloc (pens->n + 1, sizeof *s.place) };
-  CeldStatus status = s.point && s.spare && s.from && s.width && s.place ? CELD_OK : CELD_NO_MEMORY;
+                   celd_alloc (pens->n, sizeof *s.place), celd_alloc (pens->n, sizeof *s.sample),
+                   celd_alloc (pens->n, sizeof *s.contact) };
+  CeldStatus status = s.point && s.spare && s.from && s.width && s.place && s.sample && s.contact ? CELD_OK
+                                                                                                   : CELD_NO_MEMORY;
 
   if (status == CELD_OK)
     {
       sort_points (pens, false, NULL, &s, s.spare);
       sort_points (pens, true, s.spare, &s, s.point);
-      for (uint32_t k = 1; k <= pens->n; k++)
-        s.place[k - 1] = (PlacedLabel) { pens->level[k - 1], k };
-      qsort (s.place, pens->n, sizeof *s.place, compare_places);
-      for (size_t k = 0; k < pens->n; k++)
-        measure_label (s.place[k].label, &s, pens);
+      status = measure_labels (&s, pens);
     }
   celd_free (s.point);
   celd_free (s.spare);
   celd_free (s.from);
   celd_free (s.width);
   celd_free (s.place);
+  celd_free (s.sample);
+  celd_free (s.contact);
   return status;
 }
 
@@ -286,8 +392,9 @@ celd_pen_widths_smooth (const CeldEdgeLoop *loop, CeldContourPens *pens)
     {
       uint32_t front = celd_pen_front (pens, &pen[i]);
 
-      if (front)
-        pen[i].width = fminf (smooth_thickness (pens, loop, i), pens->max_width[front - 1]);
+      if (front) /* beside another line the ink does not tell how much the pen varies */
+        pen[i].width = fminf (smooth_thickness (pens, loop, i),
+                              (pen[i].thickened ? pens->typical_width : pens->max_width)[front - 1]);
       else
         pen[i].width = pen[i].near ? shared_width (pens, &point[i], &pen[i]) : 0;
     }

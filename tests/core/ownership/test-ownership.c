@@ -51,6 +51,8 @@ hair_lines_and_brushes_are_told_apart (void)
 {
   CHECK (mean_score (1, 0, CELD_EXPANSION_OUTLINES) >= 0.98);
   CHECK (mean_score (6, 0.3, CELD_EXPANSION_OUTLINES) >= 0.975);
+  CHECK (mean_score (9, 0.3, CELD_EXPANSION_OUTLINES) >= 0.975);
+  CHECK (mean_score (16, 0.2, CELD_EXPANSION_OUTLINES) >= 0.98);
 }
 
 static void
@@ -130,6 +132,26 @@ a_pen_is_measured_where_it_is_alone (void)
       add_sheet (&b, 90, 80, 160, 220, 3);
       CHECK (score_sheets (&b) >= 0.98);
     }
+}
+
+/* Two sheets side by side.  The outline of the farther one is seen along the edge of the nearer one, all of it or what
+ * is left beyond `covered` pixels: each has its own line, however much wider one pen is than the other. */
+static void
+side_by_side_each_has_its_line (void)
+{
+  static const double pens[][2] = { { 6, 10 }, { 10, 6 }, { 8, 8 } };
+
+  for (size_t i = 0; i < sizeof pens / sizeof *pens; i++)
+    for (double covered = 0; covered <= 1.5; covered += 0.75)
+      {
+        double far = pens[i][0], near = pens[i][1];
+        Blobs  b;
+
+        blobs_new (260, 260, &b);
+        add_sheet (&b, 130 + (far + near) / 2 - covered, 90, 200, 170, far);
+        add_sheet (&b, 60, 60, 130, 200, near);
+        CHECK (score_sheets (&b) >= 0.99);
+      }
 }
 
 /* ------------------------------------------------------------------ known answers */
@@ -375,6 +397,7 @@ main (void)
   RUN (pens_beat_thickness);
   RUN (a_thin_sheet_leaves_the_outline_below_it);
   RUN (a_pen_is_measured_where_it_is_alone);
+  RUN (side_by_side_each_has_its_line);
   RUN (a_contour_is_the_nearer_regions);
   RUN (ink_within_a_region_is_its_own);
   RUN (a_black_patch_keeps_its_ink);
