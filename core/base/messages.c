@@ -157,6 +157,6 @@ celd_cycle_text (const CeldCycle *cycle, const CeldRelations *relations, char *t
     }
   if (cycle->label && used < size)
     snprintf (text + used, size - used, " That is so because #%02x%02x%02x has one depth at (%d, %d) and at (%d, %d); "
-              "the setting 'Same colour: Separate depths' gives each its own.", cycle->colour[0], cycle->colour[1], cycle->colour[2],
-              cycle->x[0], cycle->y[0], cycle->x[1], cycle->y[1]);
+              "the setting 'Same colour: Separate depths' gives each its own.", cycle->colour[0], cycle->colour[1],
+              cycle->colour[2], cycle->x[0], cycle->y[0], cycle->x[1], cycle->y[1]);
 }

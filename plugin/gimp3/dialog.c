@@ -274,8 +274,8 @@ fill_export (GimpProcedureDialog *dialog, GimpImage *image)
                     celd_results_find (image, celd_picture_arguments[CELD_PICTURE_LEVELS]);
 
   gimp_procedure_dialog_get_label (dialog, "depth-title", "Export", FALSE, FALSE);
-  gimp_procedure_dialog_get_label (dialog, "few-steps", "<small>The image has 8 bits, so that depth in its layers has at "
-                                   "most 256 steps.\nFor more let it be made anew.</small>", TRUE, FALSE);
+  gimp_procedure_dialog_get_label (dialog, "few-steps", "<small>The image has 8 bits, so that depth in its layers has "
+                                   "at most 256 steps.\nFor more let it be made anew.</small>", TRUE, FALSE);
   if (layers && celd_image_has_few_bits (image))
     gimp_procedure_dialog_fill_box (dialog, "depth-box", "picture", "source", "few-steps", "file", NULL);
   else if (layers)

@@ -107,7 +107,8 @@ celd_file_chosen (GimpProcedureConfig *config, gboolean (*can_write) (const char
   path = file ? g_file_get_path (file) : NULL;
   g_clear_object (&file);
   if (!path)
-    refuse (error, "No file is chosen, or it is not on this computer. Give the name of a file that ends in %s.", endings);
+    refuse (error, "No file is chosen, or it is not on this computer. Give the name of a file that ends in %s.",
+            endings);
   else if (!celd_io_load (&why))
     refuse (error, "%s", why.text);
   else if (!can_write (path))

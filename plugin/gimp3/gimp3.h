@@ -143,7 +143,8 @@ typedef struct
 {
   const CeldResultLayer *layer;
   gsize                  n;
-  gboolean             (*write) (CeldPipeline *pipeline, int picture, gpointer data, GeglBuffer *buffer, GError **error);
+  gboolean             (*write) (CeldPipeline *pipeline, int picture, gpointer data, GeglBuffer *buffer,
+                                 GError **error);
   gpointer               data;
   gboolean               show;
 } CeldResults;

@@ -49,8 +49,8 @@ const CeldProcedure celd_mesh_procedure = {
   .name          = "plug-in-celdepth-relief-mesh",
   .menu_label    = "Relief _mesh...",
   .blurb         = "Makes a model of rounded parts for 3D programs or for printing: glTF, OBJ, PLY or STL",
-  .help          = "Each part is inflated, and lies in front of those behind it; the drawing is on it. Layers are found "
-                   "as by Pop-up.",
+  .help          = "Each part is inflated, and lies in front of those behind it; the drawing is on it. Layers are "
+                   "found as by Pop-up.",
   .add_arguments = add_arguments,
   .run           = celd_run,
   .title         = "Relief mesh",

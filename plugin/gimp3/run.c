@@ -154,8 +154,8 @@ show_problems (CeldPipeline *pipeline, const CeldPathArrows *paths)
   if (problems)
     g_message ("%s", problems);
   if (paths->left_out)
-    g_message ("Strokes of the path Arrows that are no arrows were left out: %d. They are closed, or have one point. An "
-               "arrow goes from its first point, on the nearer part, to its last one.", paths->left_out);
+    g_message ("Strokes of the path Arrows that are no arrows were left out: %d. They are closed, or have one point. "
+               "An arrow goes from its first point, on the nearer part, to its last one.", paths->left_out);
   g_free (problems);
 }
 

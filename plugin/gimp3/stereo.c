@@ -135,8 +135,8 @@ add_arguments (GimpProcedure *procedure)
 {
   celd_settings_add_arguments (procedure, CELD_FOR_STEREO);
   gimp_procedure_add_boolean_argument (procedure, "new-image", "In a _new image",
-                                       "Makes a new image. Otherwise the views are layers of the group Cartoon Depth, if "
-                                       "they have its size: whole views beside or above each other do not",
+                                       "Makes a new image. Otherwise the views are layers of the group Cartoon Depth, "
+                                       "if they have its size: whole views beside or above each other do not",
                                        FALSE, G_PARAM_READWRITE);
   gimp_procedure_add_layer_return_value (procedure, "layer", "Layer", "The layer with both views, or with the left one",
                                          FALSE, G_PARAM_READWRITE);

@@ -1,5 +1,5 @@
-# Runs what the plug-in has beside Pop-up, and arrows of paths, without a screen, and compares with the command.  For the
-# Python interpreter of GIMP 3, with this folder in its path.
+# Runs what the plug-in has beside Pop-up, and arrows of paths, without a screen, and compares with the command.
+# For the Python interpreter of GIMP 3, with this folder in its path.
 #
 # SPDX-License-Identifier: LGPL-3.0-or-later
 import json
@@ -11,8 +11,8 @@ gi.require_version('Gegl', '0.4')
 gi.require_version('Gimp', '3.0')
 from gi.repository import Gegl, Gimp  # noqa: E402
 import numpy as np  # noqa: E402
-from people import (ERRORS, OUT, PRECISIONS, QUIET, Image, all_layers, by_name, check, encode, file, open_people,  # noqa: E402
-                    pixels, pop_up, results, run)
+from people import (ERRORS, OUT, PRECISIONS, QUIET, Image, all_layers, by_name, check, encode, file,  # noqa: E402
+                    open_people, pixels, pop_up, results, run)
 
 FOLDER = os.path.join(OUT, 'outputs')
 
@@ -78,9 +78,9 @@ def layers_of_the_group_are_exported_as_they_are():
         check(painted[50:, 100:].min() == 1 and painted[:50].max() == 0 and painted[:, :100].max() == 0,
               f'{bits} bits: what the artist changed counts, at its place')
         path, _, _ = export(image, f'anew-again-{bits}.png', source='drawing')
-        near(read_png(path), read_png(f'{OUT}/command-depth.png'), 1.01 / 65535, f'{bits} bits: depth that is made anew')
+        near(read_png(path), read_png(f'{OUT}/command-depth.png'), 1.01 / 65535, f'{bits} bits: depth made anew')
         path, good, _ = export(image, f'levels-again-{bits}.png', picture='levels')
-        near(read_png(path), read_png(f'{OUT}/command-levels.png'), 1.01 / 65535, f'{bits} bits: levels without a layer')
+        near(read_png(path), read_png(f'{OUT}/command-levels.png'), 1.01 / 65535, f'{bits} bits: levels, no layer')
         image.delete()
 
 
@@ -101,7 +101,7 @@ def an_image_stays_clean_and_remembers_its_file():
     Gimp.file_save(QUIET, image, xcf, None)
     image.delete()
     image = Gimp.file_load(QUIET, xcf)
-    check('plug-in-celdepth-export-depth' not in image.get_parasite_list(), 'the name of the file is not in the image\'s')
+    check('plug-in-celdepth-export-depth' not in image.get_parasite_list(), 'no name of a file is in the image\'s own')
     good, _, message = run('plug-in-celdepth-export-depth', image, Gimp.RunMode.WITH_LAST_VALS)
     check(good and os.path.exists(os.path.join(FOLDER, 'clean-depth.exr')), f'the first name is the image\'s {message}')
     image.delete()
@@ -158,14 +158,15 @@ def views_are_those_of_the_command():
         same_view(views['stereo-left'], 'left', bits)
         same_view(views['stereo-right'], 'right', bits)
         _, group, _ = pop_up(image, ['depth'])
-        check(sorted(results(group)) == ['depth', 'stereo-left', 'stereo-right'], 'Pop-up leaves the views in the group')
+        check(sorted(results(group)) == ['depth', 'stereo-left', 'stereo-right'], 'Pop-up leaves the views alone')
         image.delete()
 
 
 def large_views_are_a_new_image():
     image = open_people(16)
     before = layers_of(image)
-    good, layer, message = run('plug-in-celdepth-stereo', image, stereo='side-by-side', disparity=0.03, convergence=0.25)
+    good, layer, message = run('plug-in-celdepth-stereo', image, stereo='side-by-side', disparity=0.03,
+                               convergence=0.25)
     made = layer.get_image() if good else None
     check(good and made.get_id() != image.get_id() and layers_of(image) == before,
           f'views side by side are a new image {message}')
@@ -201,7 +202,8 @@ def meshes_are_those_of_the_command():
     before = layers_of(image)
     path = os.path.join(FOLDER, 'relief.glb')
     good, _, message = run('plug-in-celdepth-relief-mesh', image, file=file(path))
-    check(good and read_glb(path) == read_glb(f'{OUT}/command-relief.glb'), f'a GLB has the parts of the command\'s {message}')
+    check(good and read_glb(path) == read_glb(f'{OUT}/command-relief.glb'),
+          f'a GLB has the parts of the command\'s {message}')
     path = os.path.join(FOLDER, 'relief.stl')
     good, _, message = run('plug-in-celdepth-relief-mesh', image, file=file(path), mesh_size=50.0)
     near(read_stl(path), read_stl(f'{OUT}/command-relief.stl'), 1e-4, f'triangles of an STL, in mm, {message}')
@@ -225,7 +227,8 @@ def add_path(image, name, *strokes, closed=False):
     return path
 
 
-ARROWS = [[(400, 150), (430, 100), (460, 215)], [(388, 327), (388, 240)], [(415, 650), (470, 580)], [(660, 265), (745, 278)]]
+ARROWS = [[(400, 150), (430, 100), (460, 215)], [(388, 327), (388, 240)], [(415, 650), (470, 580)],
+          [(660, 265), (745, 278)]]
 
 
 def paths_are_arrows():
