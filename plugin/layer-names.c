@@ -71,3 +71,41 @@ celd_layer_role_name (CeldLayerRole role)
 {
   return titles[role];
 }
+
+int
+celd_layer_roles_last (const CeldNamedLayer *layer, int n, const int found[CELD_N_LAYERS], int *others)
+{
+  int last = -1, count = 0;
+
+  for (int i = 0; i < n; i++)
+    {
+      gboolean other = !layer[i].group;
+
+      for (int role = 0; role < CELD_N_LAYERS; role++)
+        other = other && found[role] != i;
+      last   = other ? i : last;
+      count += other;
+    }
+  if (others)
+    *others = count;
+  return last;
+}
+
+void
+celd_layer_roles_find (const CeldNamedLayer *layer, int n, int found[CELD_N_LAYERS])
+{
+  int last, others;
+
+  for (int role = 0; role < CELD_N_LAYERS; role++)
+    found[role] = -1;
+  for (int i = 0; i < n; i++)
+    {
+      CeldLayerRole role = celd_layer_role_of_name (layer[i].name);
+
+      if (role < CELD_N_LAYERS && found[role] < 0)
+        found[role] = i;
+    }
+  last = celd_layer_roles_last (layer, n, found, &others);
+  if (found[CELD_LAYER_DRAWING] < 0 && others == 1)
+    found[CELD_LAYER_DRAWING] = last;
+}

@@ -16,6 +16,17 @@ CeldLayerRole celd_layer_role_of_name (const char *name);
 /* The English name of a role: "Drawing". */
 const char *celd_layer_role_name (CeldLayerRole role);
 
+/* A layer of an image: what it is called, and whether it is a group. */
+typedef struct { const char *name; gboolean group; } CeldNamedLayer;
+
+/* The layers by their names, as indices, -1 where there is none; the first one of a name counts.  Without a layer of
+ * the drawing's name the only layer that has no other role, and is no group, is the drawing. */
+void celd_layer_roles_find (const CeldNamedLayer *layer, int n, int found[CELD_N_LAYERS]);
+
+/* The last layer that has no role in `found`, and is no group; -1: there is none.  *others, if not NULL, is how many
+ * there are. */
+int celd_layer_roles_last (const CeldNamedLayer *layer, int n, const int found[CELD_N_LAYERS], int *others);
+
 #define CELD_N_LABEL_COLOURS 24
 
 /* Colours that are far from each other, from white and from black: 0xRRGGBB, with names. */

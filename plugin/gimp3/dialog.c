@@ -270,8 +270,8 @@ fill_stereo (GimpProcedureDialog *dialog, GimpProcedureConfig *config)
 static void
 fill_export (GimpProcedureDialog *dialog, GimpImage *image)
 {
-  gboolean layers = celd_results_find (image, celd_picture_arguments[CELD_PICTURE_DEPTH]) ||
-                    celd_results_find (image, celd_picture_arguments[CELD_PICTURE_LEVELS]);
+  gboolean layers = celd_results_find (image, celd_pictures[CELD_PICTURE_DEPTH].argument) ||
+                    celd_results_find (image, celd_pictures[CELD_PICTURE_LEVELS].argument);
 
   gimp_procedure_dialog_get_label (dialog, "depth-title", "Export", FALSE, FALSE);
   gimp_procedure_dialog_get_label (dialog, "few-steps", "<small>The image has 8 bits, so that depth in its layers has "

@@ -40,7 +40,7 @@ find_source (GimpImage *image, GimpProcedureConfig *config)
 {
   if (gimp_procedure_config_get_choice_id (config, "source") == SOURCE_DRAWING)
     return NULL;
-  return celd_results_find (image, celd_picture_arguments[picture_of (config)]);
+  return celd_results_find (image, celd_pictures[picture_of (config)].argument);
 }
 
 static gboolean

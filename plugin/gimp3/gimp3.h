@@ -23,6 +23,7 @@
 
 #include <libgimp/gimp.h>
 
+#include "front-end.h"
 #include "layer-names.h"
 #include "pipeline.h"
 
@@ -98,11 +99,6 @@ char *celd_file_chosen (GimpProcedureConfig *config, gboolean (*can_write) (cons
                         GError **error);
 
 /* ------------------------------------------------------------------ settings.c */
-
-/* Names of arguments: of the layer with a role, and of the switch for a picture. */
-extern const char *const celd_layer_arguments[CELD_N_LAYERS];
-#define CELD_POPUP_PICTURES CELD_PICTURE_SUGGESTIONS /* those before it can be chosen */
-extern const char *const celd_picture_arguments[CELD_POPUP_PICTURES];
 
 /* The arguments of a procedure, with layers and relations. */
 enum

@@ -8,16 +8,6 @@
 
 /* ------------------------------------------------------------------ listing */
 
-static CeldLayerRole
-role_of (GimpLayer *layer)
-{
-  char         *name = gimp_item_get_name (GIMP_ITEM (layer));
-  CeldLayerRole role = celd_layer_role_of_name (name);
-
-  g_free (name);
-  return role;
-}
-
 static void
 list (GArray *listed, GimpLayer *layer, int depth)
 {
@@ -48,59 +38,61 @@ celd_layers_list (GimpImage *image)
 
 /* ------------------------------------------------------------------ finding */
 
-/* Of the layers that have no role in `found` and are no groups, the lowest; *n is their number. */
-static GimpLayer *
-find_others (GArray *listed, GimpLayer *const found[CELD_N_LAYERS], int *n)
+/* What the layers are called, as many as are listed; free_names frees it. */
+static CeldNamedLayer *
+get_names (const GArray *listed)
 {
-  GimpLayer *lowest = NULL;
+  CeldNamedLayer *named = g_new (CeldNamedLayer, listed->len + 1);
 
-  *n = 0;
   for (guint i = 0; i < listed->len; i++)
     {
-      GimpLayer *layer = g_array_index (listed, CeldListedLayer, i).layer;
-      gboolean   other = !gimp_item_is_group (GIMP_ITEM (layer));
+      GimpItem *item = GIMP_ITEM (g_array_index (listed, CeldListedLayer, i).layer);
 
-      for (int role = 0; role < CELD_N_LAYERS; role++)
-        other = other && layer != found[role];
-      if (other)
-        {
-          lowest = layer;
-          ++*n;
-        }
+      named[i] = (CeldNamedLayer) { gimp_item_get_name (item), gimp_item_is_group (item) };
     }
-  return lowest;
+  return named;
+}
+
+static void
+free_names (CeldNamedLayer *named, guint n)
+{
+  for (guint i = 0; i < n; i++)
+    g_free ((char *) named[i].name);
+  g_free (named);
 }
 
 void
 celd_layers_find (GimpImage *image, GimpLayer *found[CELD_N_LAYERS])
 {
-  GArray    *listed = celd_layers_list (image);
-  GimpLayer *lowest;
-  int        others;
+  GArray         *listed = celd_layers_list (image);
+  CeldNamedLayer *named = get_names (listed);
+  int             index[CELD_N_LAYERS];
 
+  celd_layer_roles_find (named, (int) listed->len, index);
   for (int role = 0; role < CELD_N_LAYERS; role++)
-    found[role] = NULL;
-  for (guint i = 0; i < listed->len; i++)
-    {
-      GimpLayer    *layer = g_array_index (listed, CeldListedLayer, i).layer;
-      CeldLayerRole role = role_of (layer);
-
-      if (role < CELD_N_LAYERS && !found[role])
-        found[role] = layer;
-    }
-  lowest = find_others (listed, found, &others);
-  if (!found[CELD_LAYER_DRAWING] && others == 1)
-    found[CELD_LAYER_DRAWING] = lowest;
+    found[role] = index[role] < 0 ? NULL : g_array_index (listed, CeldListedLayer, index[role]).layer;
+  free_names (named, listed->len);
   g_array_unref (listed);
 }
 
 GimpLayer *
 celd_layers_lowest (GimpImage *image, GimpLayer *const found[CELD_N_LAYERS])
 {
-  GArray    *listed = celd_layers_list (image);
-  int        others;
-  GimpLayer *lowest = find_others (listed, found, &others);
+  GArray         *listed = celd_layers_list (image);
+  CeldNamedLayer *named = get_names (listed);
+  int             index[CELD_N_LAYERS], last;
+  GimpLayer      *lowest;
 
+  for (int role = 0; role < CELD_N_LAYERS; role++)
+    {
+      index[role] = -1;
+      for (guint i = 0; found[role] && i < listed->len; i++)
+        if (g_array_index (listed, CeldListedLayer, i).layer == found[role])
+          index[role] = (int) i;
+    }
+  last = celd_layer_roles_last (named, (int) listed->len, index, NULL);
+  free_names (named, listed->len);
+  lowest = last < 0 ? NULL : g_array_index (listed, CeldListedLayer, last).layer;
   g_array_unref (listed);
   return lowest;
 }

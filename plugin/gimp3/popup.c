@@ -4,16 +4,6 @@
  */
 #include "gimp3.h"
 
-/* From the top of the group to the bottom.  Pictures that show numbers or light alone have no alpha. */
-static const CeldResultLayer layers[CELD_POPUP_PICTURES] = {
-  { "enhanced", "Drawing with shadows", GIMP_RGBA_IMAGE, CELD_PICTURE_ENHANCED },
-  { "lit",      "Lit drawing",          GIMP_RGBA_IMAGE, CELD_PICTURE_LIT },
-  { "shading",  "Shading",              GIMP_RGB_IMAGE,  CELD_PICTURE_SHADING },
-  { "normals",  "Normal map",           GIMP_RGB_IMAGE,  CELD_PICTURE_NORMALS },
-  { "depth",    "Depth",                GIMP_RGB_IMAGE,  CELD_PICTURE_DEPTH },
-  { "levels",   "Levels",               GIMP_RGB_IMAGE,  CELD_PICTURE_LEVELS },
-  { "regions",  "Regions",              GIMP_RGBA_IMAGE, CELD_PICTURE_REGIONS },
-};
 
 static gboolean
 make (CeldPipeline *pipeline, GimpImage *image, GimpProcedureConfig *config, CeldPipelineProgress progress,
@@ -39,8 +29,17 @@ write_layer (CeldPipeline *pipeline, int picture, gpointer data, GeglBuffer *buf
 static GimpLayer *
 write_result (CeldPipeline *pipeline, GimpImage *image, GimpProcedureConfig *config, GError **error)
 {
-  CeldResults results = { layers, G_N_ELEMENTS (layers), write_layer, NULL, FALSE };
+  CeldResultLayer layer[CELD_POPUP_PICTURES];
+  CeldResults     results = { layer, G_N_ELEMENTS (layer), write_layer, NULL, FALSE };
 
+  for (int i = 0; i < CELD_POPUP_PICTURES; i++)
+    {
+      CeldPicture            picture = celd_pictures_stacked[i];
+      const CeldPictureInfo *info = &celd_pictures[picture];
+
+      layer[i] = (CeldResultLayer) { info->argument, info->layer, info->alpha ? GIMP_RGBA_IMAGE : GIMP_RGB_IMAGE,
+                                     (int) picture };
+    }
   return (GimpLayer *) celd_results_write (image, pipeline, &results, celd_pictures_chosen (config), error);
 }
 

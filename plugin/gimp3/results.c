@@ -8,7 +8,6 @@
 #include <string.h>
 
 #define GROUP_PARASITE "celdepth-results"
-#define GROUP_NAME     "Cartoon Depth"
 
 /* ------------------------------------------------------------------ parasites */
 
@@ -80,7 +79,7 @@ get_group (GimpImage *image)
 
   if (found)
     return GIMP_GROUP_LAYER (found);
-  group = gimp_group_layer_new (image, GROUP_NAME);
+  group = gimp_group_layer_new (image, CELD_GROUP_NAME);
   celd_item_mark (group, GROUP_PARASITE, "1");
   gimp_image_insert_layer (image, GIMP_LAYER (group), NULL, 0);
   return group;

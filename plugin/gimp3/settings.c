@@ -10,38 +10,6 @@
 #define PARASITE "celdepth-popup"
 #define GROUP "pop-up"
 
-const char *const celd_layer_arguments[CELD_N_LAYERS] = {
-  [CELD_LAYER_DRAWING]  = "drawing",  [CELD_LAYER_SCRIBBLES]   = "scribbles",   [CELD_LAYER_ARROWS] = "arrows",
-  [CELD_LAYER_CONTOURS] = "contours", [CELD_LAYER_CORRECTIONS] = "corrections", [CELD_LAYER_HIDDEN] = "hidden",
-};
-
-static const char *const layer_help[CELD_N_LAYERS] = {
-  [CELD_LAYER_DRAWING]     = "The line drawing; in colours it is also the art that is lit",
-  [CELD_LAYER_SCRIBBLES]   = "One stroke over each part, in a colour of its own",
-  [CELD_LAYER_ARROWS]      = "Arrows that point from nearer to farther parts",
-  [CELD_LAYER_CONTOURS]    = "Virtual contours. Red: a boundary of regions and depth; blue: a boundary of regions "
-                             "across which depth stays smooth; green: ink that is not a boundary",
-  [CELD_LAYER_CORRECTIONS] = "Strokes over lines, in the colour of the part that a line belongs to",
-  [CELD_LAYER_HIDDEN]      = "What is hidden: strokes in a part's colour where it goes on behind nearer ones, black "
-                             "where it does not",
-};
-
-const char *const celd_picture_arguments[CELD_POPUP_PICTURES] = {
-  [CELD_PICTURE_REGIONS] = "regions", [CELD_PICTURE_LEVELS]  = "levels",  [CELD_PICTURE_DEPTH]    = "depth",
-  [CELD_PICTURE_NORMALS] = "normals", [CELD_PICTURE_SHADING] = "shading", [CELD_PICTURE_LIT]      = "lit",
-  [CELD_PICTURE_ENHANCED] = "enhanced",
-};
-
-static const struct { const char *label, *help; gboolean usual; } pictures[CELD_POPUP_PICTURES] = {
-  [CELD_PICTURE_REGIONS]  = { "_Regions", "The parts as flat colours", TRUE },
-  [CELD_PICTURE_LEVELS]   = { "Le_vels", "The depth of each part, in steps; nearer is lighter", FALSE },
-  [CELD_PICTURE_DEPTH]    = { "_Depth", "Smooth depth; nearer is lighter", TRUE },
-  [CELD_PICTURE_NORMALS]  = { "_Normal map", "Which way the rounded parts face, for lighting elsewhere", FALSE },
-  [CELD_PICTURE_SHADING]  = { "S_hading", "The light alone, as greys", FALSE },
-  [CELD_PICTURE_LIT]      = { "_Lit drawing", "The drawing with light on rounded parts", TRUE },
-  [CELD_PICTURE_ENHANCED] = { "Drawing with sha_dows", "The drawing with soft shadows behind nearer parts", FALSE },
-};
-
 #define ALL (CELD_FOR_POPUP | CELD_FOR_SPLIT | CELD_FOR_SUGGEST | CELD_FOR_STEREO | CELD_FOR_EXPORT | CELD_FOR_MESH)
 
 /* Settings of core, and who offers them.  `choices` is the number of choices, if not all are offered, and `more` one of
@@ -159,11 +127,11 @@ celd_settings_add_arguments (GimpProcedure *procedure, guint whose)
 {
   for (int role = 0; role < CELD_N_LAYERS; role++)
     gimp_procedure_add_layer_argument (procedure, celd_layer_arguments[role],
-                                       celd_layer_role_name ((CeldLayerRole) role), layer_help[role], TRUE,
+                                       celd_layer_role_name ((CeldLayerRole) role), celd_layer_help[role], TRUE,
                                        G_PARAM_READWRITE);
   for (int i = 0; whose & CELD_FOR_POPUP && i < CELD_POPUP_PICTURES; i++)
-    gimp_procedure_add_boolean_argument (procedure, celd_picture_arguments[i], pictures[i].label, pictures[i].help,
-                                         pictures[i].usual, G_PARAM_READWRITE);
+    gimp_procedure_add_boolean_argument (procedure, celd_pictures[i].argument, celd_pictures[i].label,
+                                         celd_pictures[i].help, celd_pictures[i].usual, G_PARAM_READWRITE);
   for (gsize i = 0; i < G_N_ELEMENTS (offered); i++)
     if (offered[i].offered & whose)
       add_setting (procedure, &offered[i]);
@@ -213,7 +181,7 @@ celd_pictures_chosen (GimpProcedureConfig *config)
     {
       gboolean chosen;
 
-      g_object_get (config, celd_picture_arguments[i], &chosen, NULL);
+      g_object_get (config, celd_pictures[i].argument, &chosen, NULL);
       wanted |= chosen ? 1u << i : 0;
     }
   return wanted;
@@ -241,7 +209,7 @@ is_kept (const GParamSpec *spec)
     if (!strcmp (spec->name, offered[i].name))
       return TRUE;
   for (int i = 0; i < CELD_POPUP_PICTURES; i++)
-    if (!strcmp (spec->name, celd_picture_arguments[i]))
+    if (!strcmp (spec->name, celd_pictures[i].argument))
       return TRUE;
   for (gsize i = 0; i < G_N_ELEMENTS (kept_arguments); i++)
     if (!strcmp (spec->name, kept_arguments[i]))

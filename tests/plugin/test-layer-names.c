@@ -27,6 +27,32 @@ names_in_three_languages (void)
     CHECK (celd_layer_role_of_name (celd_layer_role_name ((CeldLayerRole) role)) == (CeldLayerRole) role);
 }
 
+/* The first of two layers of a name counts; the drawing needs no name if it is the only other layer that is no group. */
+static void
+roles_by_names (void)
+{
+  static const CeldNamedLayer layer[] = {
+    { "Notes", TRUE }, { "arrows", FALSE }, { "Kritzel", TRUE }, { "Scribbles", FALSE }, { "Ink", FALSE },
+    { "Paper", FALSE },
+  };
+  int found[CELD_N_LAYERS], others;
+
+  celd_layer_roles_find (layer, 5, found);
+  NEAR (found[CELD_LAYER_ARROWS], 1, 0);
+  NEAR (found[CELD_LAYER_SCRIBBLES], 2, 0);
+  NEAR (found[CELD_LAYER_CONTOURS], -1, 0);
+  NEAR (found[CELD_LAYER_DRAWING], -1, 0); /* "Scribbles" could be it */
+  NEAR (celd_layer_roles_last (layer, 6, found, &others), 5, 0);
+  NEAR (others, 3, 0);
+  celd_layer_roles_find (layer + 3, 2, found);
+  NEAR (found[CELD_LAYER_SCRIBBLES], 0, 0);
+  NEAR (found[CELD_LAYER_DRAWING], 1, 0);
+  celd_layer_roles_find (layer, 0, found);
+  NEAR (found[CELD_LAYER_DRAWING], -1, 0);
+  NEAR (celd_layer_roles_last (layer, 0, found, &others), -1, 0);
+  NEAR (others, 0, 0);
+}
+
 /* A stroke of each colour with soft edges, on a transparent layer: each makes its own label, and nothing else does. */
 static void
 every_colour_is_a_label (void)
@@ -71,6 +97,7 @@ int
 main (void)
 {
   RUN (names_in_three_languages);
+  RUN (roles_by_names);
   RUN (every_colour_is_a_label);
   return DONE;
 }
