@@ -1,8 +1,11 @@
-/* Tables of what plug-ins offer.
+/* Tables of what plug-ins offer, and how scripts name it.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "front-end.h"
+
+#include <math.h>
+#include <string.h>
 
 const char *const celd_layer_arguments[CELD_N_LAYERS] = {
   [CELD_LAYER_DRAWING]  = "drawing",  [CELD_LAYER_SCRIBBLES]   = "scribbles",   [CELD_LAYER_ARROWS] = "arrows",
@@ -42,7 +45,108 @@ const CeldPicture celd_pictures_stacked[CELD_POPUP_PICTURES] = {
 
 /* Matcaps need a picture, which these dialogs do not ask for. */
 const CeldMainSetting celd_main_settings[CELD_N_MAIN_SETTINGS] = {
-  { "light-model", CELD_MODEL_MATCAP }, { "light-azimuth", 0 }, { "light-elevation", 0 }, { "ambient", 0 },
-  { "specular", 0 }, { "rim-light", 0 }, { "bulge", 0 }, { "shadow-strength", 0 }, { "shadow-size", 0 },
-  { "ink", 0 }, { "close-gaps", 0 }, { "flats", 0 }, { "expansion", 0 }, { "suggest", 0 },
+  { "light-model", "Light", CELD_MODEL_MATCAP }, { "light-azimuth", "Light", 0 }, { "light-elevation", "Light", 0 },
+  { "ambient", "Light", 0 }, { "specular", "Light", 0 }, { "rim-light", "Light", 0 }, { "bulge", "Light", 0 },
+  { "shadow-strength", "Shadows", 0 }, { "shadow-size", "Shadows", 0 },
+  { "ink", "How layers are read", 0 }, { "close-gaps", "How layers are read", 0 },
+  { "flats", "How layers are read", 0 }, { "expansion", "How layers are read", 0 },
+  { "suggest", "How layers are read", 0 },
 };
+
+/* ------------------------------------------------------------------ texts of scripts */
+
+static gboolean
+fail (GError **error, const char *format, const char *one, const char *two)
+{
+  g_set_error (error, CELD_PIPELINE_ERROR, CELD_PIPELINE_FAILED, format, one, two);
+  return FALSE;
+}
+
+static int
+find_picture (const char *argument)
+{
+  for (int i = 0; i < CELD_POPUP_PICTURES; i++)
+    if (!strcmp (argument, celd_pictures[i].argument))
+      return i;
+  return -1;
+}
+
+gboolean
+celd_pictures_read (const char *text, guint *wanted, GError **error)
+{
+  char   **name = g_strsplit_set (text ? text : "", ", ", 0);
+  guint    bits = 0;
+  gboolean good = TRUE;
+
+  for (int i = 0; name[i] && good; i++)
+    if (*name[i])
+      {
+        int picture = find_picture (name[i]);
+
+        good  = picture >= 0 || fail (error, "There is no picture \"%s\". They are regions, levels, depth, normals, "
+                                      "shading, lit and enhanced.%s", name[i], "");
+        bits |= good ? 1u << picture : 0;
+      }
+  if (good && bits)
+    *wanted = bits;
+  g_strfreev (name);
+  return good;
+}
+
+/* The text as a number, a choice as its place; NAN if it is none. */
+static double
+parse (const CeldSettingInfo *row, const char *value)
+{
+  char  *end;
+  double number;
+
+  if (row->type == CELD_SETTING_SWITCH && (!strcmp (value, "yes") || !strcmp (value, "true")))
+    return 1;
+  if (row->type == CELD_SETTING_SWITCH && (!strcmp (value, "no") || !strcmp (value, "false")))
+    return 0;
+  for (size_t i = 0; row->type == CELD_SETTING_CHOICE && i < row->choices; i++)
+    if (!strcmp (value, row->choice[i].nick))
+      return (double) i;
+  number = g_ascii_strtod (value, &end);
+  if (end == value || *end || (row->type == CELD_SETTING_INTEGER && number != floor (number)))
+    return NAN;
+  return row->type == CELD_SETTING_NUMBER || row->type == CELD_SETTING_INTEGER ? number : NAN;
+}
+
+gboolean
+celd_setting_read (const char *name, const char *value, CeldSettings *settings, GError **error)
+{
+  const CeldSettingInfo *row = celd_setting_find (name);
+  double                 number;
+
+  if (!row)
+    return fail (error, "There is no setting \"%s\".%s", name, "");
+  number = parse (row, value);
+  if (!celd_setting_allows (row, number))
+    return fail (error, "The setting %s cannot be \"%s\".", name, value);
+  celd_setting_set (row, number, settings);
+  return TRUE;
+}
+
+gboolean
+celd_settings_read (const char *text, CeldSettings *settings, GError **error)
+{
+  char   **word = g_strsplit_set (text ? text : "", " ,\n", 0);
+  gboolean good = TRUE;
+
+  for (int i = 0; word[i] && good; i++)
+    if (*word[i])
+      {
+        char *value = strchr (word[i], '=');
+
+        if (value)
+          {
+            *value = 0;
+            good   = celd_setting_read (word[i], value + 1, settings, error);
+          }
+        else
+          good = fail (error, "\"%s\" is no setting: settings are NAME=VALUE.%s", word[i], "");
+      }
+  g_strfreev (word);
+  return good;
+}

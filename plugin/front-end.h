@@ -31,12 +31,23 @@ extern const CeldPictureInfo celd_pictures[CELD_POPUP_PICTURES];
 /* The pictures as their layers lie in the group of results, from the top to the bottom. */
 extern const CeldPicture celd_pictures_stacked[CELD_POPUP_PICTURES];
 
+/* Pictures as the text of a script, "lit,depth", as bits.  An empty text, or NULL, changes nothing.  FALSE and *error
+ * if there is no such picture. */
+gboolean celd_pictures_read (const char *text, guint *wanted, GError **error);
+
 #define CELD_GROUP_NAME "Cartoon Depth"
 
-/* The settings of core that a short dialog shows; `choices` is the number of choices, 0: all. */
-typedef struct { const char *name; int choices; } CeldMainSetting;
+/* The settings of core that a short dialog shows, under headings; `choices` is the number of choices, 0: all. */
+typedef struct { const char *name, *heading; int choices; } CeldMainSetting;
 
 #define CELD_N_MAIN_SETTINGS 14
 extern const CeldMainSetting celd_main_settings[CELD_N_MAIN_SETTINGS];
+
+/* Sets a setting of any name from a text: a number, a choice, or yes, no, true or false.  FALSE and *error if that
+ * makes no sense; then nothing is changed. */
+gboolean celd_setting_read (const char *name, const char *value, CeldSettings *settings, GError **error);
+
+/* Sets settings as the text of a script, "light-azimuth=90 bulge=0.5".  NULL is an empty text. */
+gboolean celd_settings_read (const char *text, CeldSettings *settings, GError **error);
 
 #endif

@@ -6,7 +6,7 @@
 
 #include <string.h>
 
-/* Folded as `fold` does; English first, then German and Czech. */
+/* Folded as `fold` does; English first, then German and Czech; ended by NULL. */
 static const char *const names[CELD_N_LAYERS][8] = {
   [CELD_LAYER_DRAWING]     = { "drawing", "line art", "lineart", "zeichnung", "linien", "kresba", "linky" },
   [CELD_LAYER_SCRIBBLES]   = { "scribbles", "scribble", "kritzeleien", "kritzel", "striche", "cmaranice", "tahy" },
@@ -59,11 +59,17 @@ celd_layer_role_of_name (const char *name)
   CeldLayerRole found = CELD_N_LAYERS;
 
   for (int role = 0; role < CELD_N_LAYERS; role++)
-    for (gsize i = 0; i < G_N_ELEMENTS (names[role]) && names[role][i]; i++)
+    for (int i = 0; names[role][i]; i++)
       if (!strcmp (folded, names[role][i]))
         found = (CeldLayerRole) role;
   g_free (folded);
   return found;
+}
+
+const char *const *
+celd_layer_role_names (CeldLayerRole role)
+{
+  return names[role];
 }
 
 const char *

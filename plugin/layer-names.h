@@ -16,6 +16,9 @@ CeldLayerRole celd_layer_role_of_name (const char *name);
 /* The English name of a role: "Drawing". */
 const char *celd_layer_role_name (CeldLayerRole role);
 
+/* All names of a role in lower case and without accents, ended by NULL. */
+const char *const *celd_layer_role_names (CeldLayerRole role);
+
 /* A layer of an image: what it is called, and whether it is a group. */
 typedef struct { const char *name; gboolean group; } CeldNamedLayer;
 

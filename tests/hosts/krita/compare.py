@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Compares what Krita made of layers with their drawings: within 1/255.
+"""Compares what Krita made of layers with their drawings: within 1/255; and counts the checks of the plug-in.
 
 compare.py EXAMPLES OUT
 
@@ -22,9 +22,22 @@ def compare(examples, out, drawing):
     return difference <= 1
 
 
+def checks_of_plugin(out):
+    """What the tests of the plug-in found, without and with a window."""
+    for name in ('plugin.txt', 'plugin-screen.txt'):
+        path = os.path.join(out, name)
+        lines = open(path, encoding='utf-8').read().splitlines() if os.path.exists(path) else []
+        if not lines or lines[-1] != 'ok   all checks were run':
+            lines.append(f'FAIL {name} ends early')
+        for line in lines:
+            print(line)
+            yield not line.startswith('FAIL')
+
+
 def main():
     examples, out = sys.argv[1:]
     results = [compare(examples, out, drawing) for drawing in ('people', 'monkey', 'frog')]
+    results += checks_of_plugin(out)
     print(f'{sum(results)} passed, {len(results) - sum(results)} failed')
     return 0 if all(results) else 1
 
