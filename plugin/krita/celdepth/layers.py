@@ -18,7 +18,7 @@ MODEL, PROFILE = 'RGBA', 'sRGB built-in'
 SAME_PROFILES = (PROFILE, 'sRGB-elle-V2-srgbtrc.icc')
 NOT_LAYERS = ('transparencymask', 'filtermask', 'transformmask', 'selectionmask', 'colorizemask')
 DRAWING = LAYERS[0]
-FAST = 90  # the quality of a PNG file says how little it is compressed
+FAST = 100  # the quality of a PNG file: not compressed, since it is read once
 
 
 def fold(name: str) -> str:
