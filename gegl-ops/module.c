@@ -10,12 +10,13 @@ extern const CeldOperationInfo celd_virtual_contours_operation, celd_lazybrush_s
   celd_arap_register_operation, celd_depth_propagate_operation, celd_arap_deform_operation,
   celd_compose_operation, celd_popup_operation;
 
-static const CeldOperationInfo *const operations[] = {
+const CeldOperationInfo *const celd_operations[] = {
   &celd_virtual_contours_operation, &celd_lazybrush_segment_operation, &celd_depth_order_operation,
   &celd_depth_expand_operation,     &celd_depth_smooth_operation,      &celd_depth_exact_operation,
   &celd_lumo_shade_operation,       &celd_depth_enhance_operation,     &celd_relief_operation,
   &celd_stereo_operation,           &celd_arap_register_operation,     &celd_depth_propagate_operation,
   &celd_arap_deform_operation,      &celd_compose_operation,           &celd_popup_operation,
+  NULL
 };
 
 G_MODULE_EXPORT const GeglModuleInfo *gegl_module_query (GTypeModule *module);
@@ -32,6 +33,6 @@ gegl_module_query (GTypeModule *module)
 gboolean
 gegl_module_register (GTypeModule *module)
 {
-  celd_operations_register (module, operations, G_N_ELEMENTS (operations));
+  celd_operations_register (module, celd_operations, G_N_ELEMENTS (celd_operations) - 1);
   return TRUE;
 }

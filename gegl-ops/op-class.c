@@ -4,6 +4,7 @@
  */
 #include "op-parts.h"
 
+#include <libintl.h>
 #include <string.h>
 
 G_DEFINE_DYNAMIC_TYPE_EXTENDED (CeldOperation, celd_operation, GEGL_TYPE_OPERATION, G_TYPE_FLAG_ABSTRACT, {})
@@ -125,7 +126,7 @@ init_operation (gpointer g_class, gpointer data)
   CeldOperationClass      *klass = g_class;
   GeglOperationClass      *operation_class = g_class;
   const CeldOperationInfo *info = data;
-  char                    *menu_label = g_strdup_printf ("%s...", info->title);
+  char                    *menu_label = g_strdup_printf ("%s...", TRANSLATED (info->title));
 
   klass->info = info;
   G_OBJECT_CLASS (klass)->set_property = celd_operation_set_property; /* not inherited */
@@ -137,9 +138,9 @@ init_operation (gpointer g_class, gpointer data)
     info->adjust (operation_class);
   gegl_operation_class_set_keys (operation_class,
     "name",            info->name,
-    "title",           info->title,
+    "title",           TRANSLATED (info->title),
     "categories",      info->categories,
-    "description",     info->description,
+    "description",     TRANSLATED (info->description),
     "reference",       info->reference,
     "gimp:menu-path",  "<Image>/Filters/Cartoon Depth",
     "gimp:menu-label", menu_label,
@@ -156,6 +157,8 @@ finalize_operation (gpointer g_class, gpointer data)
 void
 celd_operations_register (GTypeModule *module, const CeldOperationInfo *const *infos, gsize n)
 {
+  bindtextdomain ("celdepth", CELD_LOCALE_FOLDER);
+  bind_textdomain_codeset ("celdepth", "UTF-8");
   celd_operation_register_type (module);
   for (gsize i = 0; i < n; i++)
     {

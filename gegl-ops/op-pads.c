@@ -20,7 +20,8 @@ void
 celd_operation_attach (GeglOperation *operation)
 {
   for (const CeldPad *pad = CELD_OPERATION_CLASS_OF (operation)->info->pads; pad->name; pad++)
-    create_pad (operation, pad->name, pad->label, pad->description, G_PARAM_READWRITE, GEGL_PARAM_PAD_INPUT);
+    create_pad (operation, pad->name, TRANSLATED (pad->label), TRANSLATED (pad->description), G_PARAM_READWRITE,
+                GEGL_PARAM_PAD_INPUT);
   create_pad (operation, "output", "Output", "The result", G_PARAM_READABLE, GEGL_PARAM_PAD_OUTPUT);
 }
 

@@ -109,6 +109,9 @@ typedef struct
 
 GType celd_operation_get_type (void);
 
+/* The operations of module.c, ended by NULL. */
+extern const CeldOperationInfo *const celd_operations[];
+
 /* Registers the base class and n operations with GEGL. */
 void celd_operations_register (GTypeModule *module, const CeldOperationInfo *const *infos, gsize n);
 

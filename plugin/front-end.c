@@ -4,6 +4,7 @@
  */
 #include "front-end.h"
 
+#include <glib/gi18n.h>
 #include <math.h>
 #include <string.h>
 
@@ -13,29 +14,33 @@ const char *const celd_layer_arguments[CELD_N_LAYERS] = {
 };
 
 const char *const celd_layer_help[CELD_N_LAYERS] = {
-  [CELD_LAYER_DRAWING]     = "The line drawing; in colours it is also the art that is lit",
-  [CELD_LAYER_SCRIBBLES]   = "One stroke over each part, in a colour of its own",
-  [CELD_LAYER_ARROWS]      = "Arrows that point from nearer to farther parts",
-  [CELD_LAYER_CONTOURS]    = "Virtual contours. Red: a boundary of regions and depth; blue: a boundary of regions "
-                             "across which depth stays smooth; green: ink that is not a boundary",
-  [CELD_LAYER_CORRECTIONS] = "Strokes over lines, in the colour of the part that a line belongs to",
-  [CELD_LAYER_HIDDEN]      = "What is hidden: strokes in a part's colour where it goes on behind nearer ones, black "
-                             "where it does not",
+  [CELD_LAYER_DRAWING]     = N_ ("The line drawing; in colours it is also the art that is lit"),
+  [CELD_LAYER_SCRIBBLES]   = N_ ("One stroke over each part, in a colour of its own"),
+  [CELD_LAYER_ARROWS]      = N_ ("Arrows that point from nearer to farther parts"),
+  [CELD_LAYER_CONTOURS]    = N_ ("Virtual contours. Red: a boundary of regions and depth; blue: a boundary of regions "
+                                 "across which depth stays smooth; green: ink that is not a boundary"),
+  [CELD_LAYER_CORRECTIONS] = N_ ("Strokes over lines, in the colour of the part that a line belongs to"),
+  [CELD_LAYER_HIDDEN]      = N_ ("What is hidden: strokes in a part's colour where it goes on behind nearer ones, "
+                                 "black where it does not"),
 };
 
 const CeldPictureInfo celd_pictures[CELD_POPUP_PICTURES] = {
-  [CELD_PICTURE_REGIONS]  = { "regions", "labels", "_Regions", "The parts as flat colours", "Regions", TRUE, TRUE },
-  [CELD_PICTURE_LEVELS]   = { "levels", "levels", "Le_vels",
-                              "The depth of each part, in steps; nearer is lighter", "Levels", FALSE, FALSE },
-  [CELD_PICTURE_DEPTH]    = { "depth", "depth", "_Depth", "Smooth depth; nearer is lighter", "Depth", FALSE, TRUE },
-  [CELD_PICTURE_NORMALS]  = { "normals", "normals", "_Normal map",
-                              "Which way the rounded parts face, for lighting elsewhere", "Normal map", FALSE, FALSE },
-  [CELD_PICTURE_SHADING]  = { "shading", "shading", "S_hading", "The light alone, as greys", "Shading", FALSE, FALSE },
-  [CELD_PICTURE_LIT]      = { "lit", "shaded", "_Lit drawing", "The drawing with light on rounded parts",
-                              "Lit drawing", TRUE, TRUE },
-  [CELD_PICTURE_ENHANCED] = { "enhanced", "enhanced", "Drawing with sha_dows",
-                              "The drawing with soft shadows behind nearer parts", "Drawing with shadows", TRUE,
-                              FALSE },
+  [CELD_PICTURE_REGIONS]  = { "regions", "labels", N_ ("_Regions"), N_ ("The parts as flat colours"),
+                              N_ ("Regions"), TRUE, TRUE },
+  [CELD_PICTURE_LEVELS]   = { "levels", "levels", N_ ("Le_vels"),
+                              N_ ("The depth of each part, in steps; nearer is lighter"), N_ ("Levels"), FALSE, FALSE },
+  [CELD_PICTURE_DEPTH]    = { "depth", "depth", N_ ("_Depth"), N_ ("Smooth depth; nearer is lighter"), N_ ("Depth"),
+                              FALSE, TRUE },
+  [CELD_PICTURE_NORMALS]  = { "normals", "normals", N_ ("_Normal map"),
+                              N_ ("Which way the rounded parts face, for lighting elsewhere"), N_ ("Normal map"),
+                              FALSE, FALSE },
+  [CELD_PICTURE_SHADING]  = { "shading", "shading", N_ ("S_hading"), N_ ("The light alone, as greys"), N_ ("Shading"),
+                              FALSE, FALSE },
+  [CELD_PICTURE_LIT]      = { "lit", "shaded", N_ ("_Lit drawing"), N_ ("The drawing with light on rounded parts"),
+                              N_ ("Lit drawing"), TRUE, TRUE },
+  [CELD_PICTURE_ENHANCED] = { "enhanced", "enhanced", N_ ("Drawing with sha_dows"),
+                              N_ ("The drawing with soft shadows behind nearer parts"), N_ ("Drawing with shadows"),
+                              TRUE, FALSE },
 };
 
 const CeldPicture celd_pictures_stacked[CELD_POPUP_PICTURES] = {

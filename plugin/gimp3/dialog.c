@@ -27,7 +27,7 @@ layer_chosen (GtkWidget *combo, gpointer data)
 static GtkWidget *
 layer_combo (GArray *listed, GimpProcedureConfig *config, int role)
 {
-  GtkWidget *combo = gimp_int_combo_box_new ("(none)", 0, NULL);
+  GtkWidget *combo = gimp_int_combo_box_new (_ ("(none)"), 0, NULL);
   Choice    *choice = g_new (Choice, 1);
   GimpLayer *chosen[CELD_N_LAYERS];
 
@@ -66,7 +66,7 @@ layer_grid (GArray *listed, GimpProcedureConfig *config, int first, int last)
   for (int role = first; role <= last; role++)
     {
       const GParamSpec *spec = g_object_class_find_property (G_OBJECT_GET_CLASS (config), celd_layer_arguments[role]);
-      GtkWidget        *label = gtk_label_new (celd_layer_role_name ((CeldLayerRole) role));
+      GtkWidget        *label = gtk_label_new (_ (celd_layer_role_name ((CeldLayerRole) role)));
       GtkWidget        *combo = layer_combo (listed, config, role);
 
       gtk_label_set_xalign (GTK_LABEL (label), 0);
@@ -84,8 +84,9 @@ static GtkWidget *
 paths_label (GimpImage *image)
 {
   CeldPathArrows paths = celd_paths_read (image);
-  char          *text = g_strdup_printf (paths.n == 1 ? "and %d arrow of the path Arrows" : "and %d arrows of the path "
-                                         "Arrows", paths.n);
+  char          *text = g_strdup_printf (ngettext ("and %d arrow of the path Arrows",
+                                                    "and %d arrows of the path Arrows", (gulong) paths.n),
+                                          paths.n);
   GtkWidget     *label = paths.n ? gtk_label_new (text) : NULL;
 
   if (label)
@@ -100,8 +101,8 @@ static GtkWidget *
 layers_frame (GimpImage *image, GimpProcedureConfig *config)
 {
   GArray    *listed = celd_layers_list (image);
-  GtkWidget *frame = gimp_frame_new ("Layers"), *box = gtk_box_new (GTK_ORIENTATION_VERTICAL, 6);
-  GtkWidget *more = gtk_expander_new_with_mnemonic ("More la_yers");
+  GtkWidget *frame = gimp_frame_new (_ ("Layers")), *box = gtk_box_new (GTK_ORIENTATION_VERTICAL, 6);
+  GtkWidget *more = gtk_expander_new_with_mnemonic (_ ("More la_yers"));
   GtkWidget *rest = layer_grid (listed, config, CELD_LAYER_CONTOURS, CELD_LAYER_HIDDEN);
   GtkWidget *paths = paths_label (image);
   GimpLayer *chosen[CELD_N_LAYERS];
@@ -135,9 +136,10 @@ fill_pictures (GimpProcedureDialog *dialog, GimpImage *image)
   gtk_flow_box_set_min_children_per_line (GTK_FLOW_BOX (flow), 2);
   gtk_flow_box_set_max_children_per_line (GTK_FLOW_BOX (flow), 2);
   gtk_flow_box_set_homogeneous (GTK_FLOW_BOX (flow), TRUE);
-  gimp_procedure_dialog_get_label (dialog, "pictures-title", "Make", FALSE, FALSE);
-  gimp_procedure_dialog_get_label (dialog, "few-bits", "<small>The image has 8 bits, so that depth has at most 256 "
-                                   "steps.\nFor more: Image &gt; Precision, 32-bit floating point.</small>", TRUE,
+  gimp_procedure_dialog_get_label (dialog, "pictures-title", _ ("Make"), FALSE, FALSE);
+  gimp_procedure_dialog_get_label (dialog, "few-bits", _ ("<small>The image has 8 bits, so that depth has at most 256 "
+                                                          "steps.\nFor more: Image &gt; Precision, 32-bit floating "
+                                                          "point.</small>"), TRUE,
                                    FALSE);
   if (celd_image_has_few_bits (image))
     gimp_procedure_dialog_fill_box (dialog, "pictures", "pictures-flow", "few-bits", NULL);
@@ -181,8 +183,8 @@ fill_light (GimpProcedureDialog *dialog, GimpProcedureConfig *config)
                                          "bulge", "bevel", NULL };
 
   use_sliders (dialog, config, sliders);
-  gimp_procedure_dialog_get_label (dialog, "light-title", "Light", FALSE, FALSE);
-  gimp_procedure_dialog_get_label (dialog, "more-light-title", "_More light and shape", FALSE, TRUE);
+  gimp_procedure_dialog_get_label (dialog, "light-title", _ ("Light"), FALSE, FALSE);
+  gimp_procedure_dialog_get_label (dialog, "more-light-title", _ ("_More light and shape"), FALSE, TRUE);
   gimp_procedure_dialog_fill_box (dialog, "more-light-box", "ambient", "toon-steps", "specular", "rim-light", "bulge",
                                   "bevel", NULL);
   gimp_procedure_dialog_fill_expander (dialog, "more-light", "more-light-title", FALSE, "more-light-box");
@@ -197,7 +199,7 @@ fill_shadows (GimpProcedureDialog *dialog, GimpProcedureConfig *config)
   static const char *const sliders[] = { "shadow-strength", "shadow-size", "shadow-offset", NULL };
 
   use_sliders (dialog, config, sliders);
-  gimp_procedure_dialog_get_label (dialog, "shadows-title", "Shadows", FALSE, FALSE);
+  gimp_procedure_dialog_get_label (dialog, "shadows-title", _ ("Shadows"), FALSE, FALSE);
   gimp_procedure_dialog_fill_box (dialog, "shadows-box", "shadow-strength", "shadow-size", "shadow-offset", NULL);
   gimp_procedure_dialog_fill_frame (dialog, "shadows", "shadows-title", FALSE, "shadows-box");
 }
@@ -209,7 +211,7 @@ fill_reading (GimpProcedureDialog *dialog, GimpProcedureConfig *config)
   static const char *const sliders[] = { "ink-threshold", "hardness", NULL };
 
   use_sliders (dialog, config, sliders);
-  gimp_procedure_dialog_get_label (dialog, "reading-title", "_How layers are read", FALSE, TRUE);
+  gimp_procedure_dialog_get_label (dialog, "reading-title", _ ("_How layers are read"), FALSE, TRUE);
   if (celd_has_argument (config, "suggest"))
     gimp_procedure_dialog_fill_box (dialog, "reading-box", "ink", "ink-threshold", "arrow-style", "hardness",
                                     "close-gaps", "flats", "same-colour", "suggest", "on-cycle", "expansion",
@@ -246,7 +248,7 @@ static void
 fill_split (GimpProcedureDialog *dialog)
 {
   gtk_button_set_label (GTK_BUTTON (gimp_procedure_dialog_get_widget (dialog, "complete", G_TYPE_NONE)),
-                        "Complete what nearer parts hide");
+                        _ ("Complete what nearer parts hide"));
   gimp_procedure_dialog_fill (dialog, "complete", "reading", NULL);
 }
 
@@ -256,8 +258,8 @@ fill_stereo (GimpProcedureDialog *dialog, GimpProcedureConfig *config)
   static const char *const sliders[] = { "disparity", "convergence", "screen-width", NULL };
 
   use_sliders (dialog, config, sliders);
-  gimp_procedure_dialog_get_label (dialog, "view-title", "Views", FALSE, FALSE);
-  gimp_procedure_dialog_get_label (dialog, "more-views-title", "_More for screens", FALSE, TRUE);
+  gimp_procedure_dialog_get_label (dialog, "view-title", _ ("Views"), FALSE, FALSE);
+  gimp_procedure_dialog_get_label (dialog, "more-views-title", _ ("_More for screens"), FALSE, TRUE);
   gimp_procedure_dialog_fill_box (dialog, "more-views-box", "floating-window", "screen-width", NULL);
   gimp_procedure_dialog_fill_expander (dialog, "more-views", "more-views-title", FALSE, "more-views-box");
   gimp_procedure_dialog_fill_box (dialog, "view-box", "stereo", "new-image", "disparity", "convergence", "more-views",
@@ -273,9 +275,10 @@ fill_export (GimpProcedureDialog *dialog, GimpImage *image)
   gboolean layers = celd_results_find (image, celd_pictures[CELD_PICTURE_DEPTH].argument) ||
                     celd_results_find (image, celd_pictures[CELD_PICTURE_LEVELS].argument);
 
-  gimp_procedure_dialog_get_label (dialog, "depth-title", "Export", FALSE, FALSE);
-  gimp_procedure_dialog_get_label (dialog, "few-steps", "<small>The image has 8 bits, so that depth in its layers has "
-                                   "at most 256 steps.\nFor more let it be made anew.</small>", TRUE, FALSE);
+  gimp_procedure_dialog_get_label (dialog, "depth-title", _ ("Export"), FALSE, FALSE);
+  gimp_procedure_dialog_get_label (dialog, "few-steps", _ ("<small>The image has 8 bits, so that depth in its layers "
+                                                           "has at most 256 steps.\nFor more let it be made "
+                                                           "anew.</small>"), TRUE, FALSE);
   if (layers && celd_image_has_few_bits (image))
     gimp_procedure_dialog_fill_box (dialog, "depth-box", "picture", "source", "few-steps", "file", NULL);
   else if (layers)
@@ -293,8 +296,8 @@ fill_mesh (GimpProcedureDialog *dialog, GimpProcedureConfig *config)
                                          "most-vertices", NULL };
 
   use_sliders (dialog, config, sliders);
-  gimp_procedure_dialog_get_label (dialog, "shape-title", "Shape", FALSE, FALSE);
-  gimp_procedure_dialog_get_label (dialog, "more-shape-title", "_More about the mesh", FALSE, TRUE);
+  gimp_procedure_dialog_get_label (dialog, "shape-title", _ ("Shape"), FALSE, FALSE);
+  gimp_procedure_dialog_get_label (dialog, "more-shape-title", _ ("_More about the mesh"), FALSE, TRUE);
   gimp_procedure_dialog_fill_box (dialog, "more-shape-box", "mesh-kind", "mesh-plate", "relief-from", "mesh-error",
                                   "most-vertices", NULL);
   gimp_procedure_dialog_fill_expander (dialog, "more-shape", "more-shape-title", FALSE, "more-shape-box");
@@ -329,9 +332,9 @@ celd_dialog_run (GimpProcedure *procedure, GimpProcedureConfig *config, GimpImag
   gboolean             go;
 
   gimp_ui_init ("celdepth");
-  window = gimp_procedure_dialog_new (procedure, config, p->title);
+  window = gimp_procedure_dialog_new (procedure, config, _ (p->title));
   dialog = GIMP_PROCEDURE_DIALOG (window);
-  gimp_procedure_dialog_set_ok_label (dialog, p->file_ending ? "_Export" : "_Make");
+  gimp_procedure_dialog_set_ok_label (dialog, p->file_ending ? _ ("_Export") : _ ("_Make"));
   gtk_box_pack_start (GTK_BOX (gtk_dialog_get_content_area (GTK_DIALOG (window))), layers_frame (image, config), FALSE,
                       FALSE, 0);
   fill (dialog, config, image);

@@ -73,31 +73,33 @@ add_arguments (GimpProcedure *procedure)
 {
   GimpChoice *picture = gimp_choice_new (), *source = gimp_choice_new ();
 
-  gimp_choice_add (picture, "depth", CELD_PICTURE_DEPTH, "Smooth depth", NULL);
-  gimp_choice_add (picture, "levels", CELD_PICTURE_LEVELS, "Levels: the depth of each part, in steps", NULL);
-  gimp_choice_add (source, "layer", SOURCE_LAYER, "The layer of the results, as it is", NULL);
-  gimp_choice_add (source, "drawing", SOURCE_DRAWING, "The drawing and its layers, anew", NULL);
-  gimp_procedure_add_choice_argument (procedure, "picture", "_Picture", "What is exported", picture, "depth",
+  gimp_choice_add (picture, "depth", CELD_PICTURE_DEPTH, _ ("Smooth depth"), NULL);
+  gimp_choice_add (picture, "levels", CELD_PICTURE_LEVELS, _ ("Levels: the depth of each part, in steps"), NULL);
+  gimp_choice_add (source, "layer", SOURCE_LAYER, _ ("The layer of the results, as it is"), NULL);
+  gimp_choice_add (source, "drawing", SOURCE_DRAWING, _ ("The drawing and its layers, anew"), NULL);
+  gimp_procedure_add_choice_argument (procedure, "picture", _ ("_Picture"), _ ("What is exported"), picture, "depth",
                                       G_PARAM_READWRITE);
-  gimp_procedure_add_choice_argument (procedure, "source", "_From",
-                                      "Where it comes from. A layer of an image with 8 bits has at most 256 steps. "
-                                      "Without a layer in the group Cartoon Depth it is always made anew", source,
+  gimp_procedure_add_choice_argument (procedure, "source", _ ("_From"),
+                                      _ ("Where it comes from. A layer of an image with 8 bits has at most 256 steps. "
+                                         "Without a layer in the group Cartoon Depth it is always made anew"), source,
                                       "layer", G_PARAM_READWRITE);
-  celd_file_add_argument (procedure, "The file to write. The ending of its name is its kind: .exr has floats, the "
-                          "distance Z and the depth, .png has 16 bits, nearer is lighter, .tif has floats");
+  celd_file_add_argument (procedure, _ ("The file to write. The ending of its name is its kind: .exr has floats, the "
+                                        "distance Z and the depth, .png has 16 bits, nearer is lighter, .tif has "
+                                        "floats"));
   celd_settings_add_arguments (procedure, CELD_FOR_EXPORT);
 }
 
 const CeldProcedure celd_export_procedure = {
   .name          = "plug-in-celdepth-export-depth",
-  .menu_label    = "_Export depth...",
-  .blurb         = "Writes depth to a file with enough steps for compositing and 3D programs: EXR, or PNG of 16 bits",
-  .help          = "Writes the layer Depth or Levels of the group with the results, as it is, or makes it from the "
-                   "drawing and its layers, as Pop-up does. The numbers are linear, and nearer is larger; EXR files "
-                   "also have the distance, channel Z.",
+  .menu_label    = N_ ("_Export depth..."),
+  .blurb         = N_ ("Writes depth to a file with enough steps for compositing and 3D programs: EXR, or PNG of 16 "
+                       "bits"),
+  .help          = N_ ("Writes the layer Depth or Levels of the group with the results, as it is, or makes it from the "
+                       "drawing and its layers, as Pop-up does. The numbers are linear, and nearer is larger; EXR "
+                       "files also have the distance, channel Z."),
   .add_arguments = add_arguments,
   .run           = celd_run,
-  .title         = "Export depth",
+  .title         = N_ ("Export depth"),
   .file_ending   = "-depth.exr",
   .prepare       = prepare,
   .make          = make,

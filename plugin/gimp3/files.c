@@ -89,7 +89,7 @@ check_folder (const char *path, GError **error)
 {
   char    *folder = g_path_get_dirname (path);
   gboolean good = g_file_test (folder, G_FILE_TEST_IS_DIR) ||
-                  refuse (error, "There is no folder \"%s\". Choose another one, or make it first.", folder);
+                  refuse (error, _ ("There is no folder \"%s\". Choose another one, or make it first."), folder);
 
   g_free (folder);
   return good;
@@ -107,13 +107,13 @@ celd_file_chosen (GimpProcedureConfig *config, gboolean (*can_write) (const char
   path = file ? g_file_get_path (file) : NULL;
   g_clear_object (&file);
   if (!path)
-    refuse (error, "No file is chosen, or it is not on this computer. Give the name of a file that ends in %s.",
-            endings);
+    refuse (error, _ ("No file is chosen, or it is not on this computer. Give the name of a file that ends in "
+                      "%s."), endings);
   else if (!celd_io_load (&why))
     refuse (error, "%s", why.text);
   else if (!can_write (path))
     g_set_error (error, CELD_PIPELINE_ERROR, CELD_PIPELINE_FAILED,
-                 "\"%s\" cannot be written: its name must end in %s.", path, endings);
+                 _ ("\"%s\" cannot be written: its name must end in %s."), path, endings);
   else if (check_folder (path, error))
     return path;
   g_free (path);

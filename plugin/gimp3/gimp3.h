@@ -21,6 +21,7 @@
 #ifndef CELD_GIMP3_H
 #define CELD_GIMP3_H
 
+#include <glib/gi18n.h>
 #include <libgimp/gimp.h>
 
 #include "front-end.h"
@@ -32,7 +33,7 @@
 typedef struct CeldProcedure CeldProcedure;
 struct CeldProcedure
 {
-  const char      *name, *menu_label, *blurb, *help;
+  const char      *name, *menu_label, *blurb, *help; /* translated when they are shown, as is the title */
   void           (*add_arguments) (GimpProcedure *procedure);
   GimpRunImageFunc run;            /* with the CeldProcedure as its data */
 

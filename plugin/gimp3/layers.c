@@ -123,7 +123,7 @@ celd_layers_open (GimpImage *image, GimpLayer *const layer[CELD_N_LAYERS], CeldP
             char *name = gimp_item_get_name (GIMP_ITEM (layer[role]));
 
             g_set_error (error, CELD_PIPELINE_ERROR, CELD_PIPELINE_FAILED,
-                         "The layer \"%s\" belongs to another image. Choose a layer of this image.", name);
+                         _ ("The layer \"%s\" belongs to another image. Choose a layer of this image."), name);
             g_free (name);
             return FALSE;
           }

@@ -42,9 +42,9 @@ create_procedure (GimpPlugIn *plug_in, const char *name)
         gimp_procedure_set_sensitivity_mask (procedure, GIMP_PROCEDURE_SENSITIVE_DRAWABLE |
                                                           GIMP_PROCEDURE_SENSITIVE_DRAWABLES |
                                                           GIMP_PROCEDURE_SENSITIVE_NO_DRAWABLES);
-        gimp_procedure_set_menu_label (procedure, p->menu_label);
+        gimp_procedure_set_menu_label (procedure, _ (p->menu_label));
         gimp_procedure_add_menu_path (procedure, MENU);
-        gimp_procedure_set_documentation (procedure, p->blurb, p->help, NULL);
+        gimp_procedure_set_documentation (procedure, _ (p->blurb), _ (p->help), NULL);
         gimp_procedure_set_attribution (procedure, "The authors of celdepth", "LGPL-3.0-or-later", "2026");
         p->add_arguments (procedure);
         return procedure;
@@ -52,7 +52,7 @@ create_procedure (GimpPlugIn *plug_in, const char *name)
   return NULL;
 }
 
-/* Without this GIMP warns of translations that it does not find. */
+/* The plug-in binds its texts by itself: GIMP would look for them in the folder of the plug-in. */
 static gboolean
 set_i18n (GimpPlugIn *plug_in, const char *procedure_name, char **gettext_domain, char **catalog_dir)
 {
@@ -71,6 +71,9 @@ celd_plug_in_class_init (CeldPlugInClass *klass)
   plug_in_class->query_procedures = query_procedures;
   plug_in_class->create_procedure = create_procedure;
   plug_in_class->set_i18n         = set_i18n;
+  bindtextdomain ("celdepth", CELD_LOCALE_FOLDER);
+  bind_textdomain_codeset ("celdepth", "UTF-8");
+  textdomain ("celdepth");
 }
 
 static void

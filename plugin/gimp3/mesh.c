@@ -40,20 +40,21 @@ make (CeldPipeline *pipeline, GimpImage *image, GimpProcedureConfig *config, Cel
 static void
 add_arguments (GimpProcedure *procedure)
 {
-  celd_file_add_argument (procedure, "The file to write. The ending of its name is its kind: .glb (glTF) and .obj have "
-                          "parts with the drawing on them, .ply has coloured vertices, .stl is for printing");
+  celd_file_add_argument (procedure, _ ("The file to write. The ending of its name is its kind: .glb (glTF) and .obj "
+                                        "have parts with the drawing on them, .ply has coloured vertices, .stl is for "
+                                        "printing"));
   celd_settings_add_arguments (procedure, CELD_FOR_MESH);
 }
 
 const CeldProcedure celd_mesh_procedure = {
   .name          = "plug-in-celdepth-relief-mesh",
-  .menu_label    = "Relief _mesh...",
-  .blurb         = "Makes a model of rounded parts for 3D programs or for printing: glTF, OBJ, PLY or STL",
-  .help          = "Each part is inflated, and lies in front of those behind it; the drawing is on it. Layers are "
-                   "found as by Pop-up.",
+  .menu_label    = N_ ("Relief _mesh..."),
+  .blurb         = N_ ("Makes a model of rounded parts for 3D programs or for printing: glTF, OBJ, PLY or STL"),
+  .help          = N_ ("Each part is inflated, and lies in front of those behind it; the drawing is on it. Layers are "
+                       "found as by Pop-up."),
   .add_arguments = add_arguments,
   .run           = celd_run,
-  .title         = "Relief mesh",
+  .title         = N_ ("Relief mesh"),
   .file_ending   = "-relief.glb",
   .prepare       = prepare,
   .make          = make,

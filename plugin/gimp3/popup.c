@@ -15,7 +15,7 @@ make (CeldPipeline *pipeline, GimpImage *image, GimpProcedureConfig *config, Cel
   if (wanted)
     return celd_pipeline_make (pipeline, wanted, progress, data, error);
   g_set_error_literal (error, CELD_PIPELINE_ERROR, CELD_PIPELINE_FAILED,
-                       "Nothing is chosen that could be made. Tick at least one picture.");
+                       _ ("Nothing is chosen that could be made. Tick at least one picture."));
   return FALSE;
 }
 
@@ -53,14 +53,15 @@ add_arguments (GimpProcedure *procedure)
 
 const CeldProcedure celd_popup_procedure = {
   .name          = "plug-in-celdepth-popup",
-  .menu_label    = "_Pop-up...",
-  .blurb         = "Finds depth for a drawing, from scribbles over its parts and arrows from nearer to farther parts",
-  .help          = "Reads the layers Drawing, Scribbles, Arrows, Contours, Corrections and Hidden, and puts the "
-                   "results into a layer group, which is updated when it is there already. Layers that are not given "
-                   "are found by their names.",
+  .menu_label    = N_ ("_Pop-up..."),
+  .blurb         = N_ ("Finds depth for a drawing, from scribbles over its parts and arrows from nearer to farther "
+                       "parts"),
+  .help          = N_ ("Reads the layers Drawing, Scribbles, Arrows, Contours, Corrections and Hidden, and puts the "
+                       "results into a layer group, which is updated when it is there already. Layers that are not "
+                       "given are found by their names."),
   .add_arguments = add_arguments,
   .run           = celd_run,
-  .title         = "Pop-up",
+  .title         = N_ ("Pop-up"),
   .make          = make,
   .write         = write_result,
 };

@@ -128,7 +128,7 @@ write_pixels (const Writing *w, const CeldResultLayer *l, GeglBuffer *buffer, GE
 static gboolean
 add_layer (const Writing *w, const CeldResultLayer *l, int position, gboolean visible, GError **error)
 {
-  GimpLayer  *layer = gimp_layer_new (w->image, l->name, gimp_image_get_width (w->image),
+  GimpLayer  *layer = gimp_layer_new (w->image, _ (l->name), gimp_image_get_width (w->image),
                                       gimp_image_get_height (w->image), l->type, 100, GIMP_LAYER_MODE_NORMAL);
   GeglBuffer *buffer = gimp_drawable_get_buffer (GIMP_DRAWABLE (layer));
   gboolean    good = write_pixels (w, l, buffer, error);

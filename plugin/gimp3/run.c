@@ -41,10 +41,10 @@ static gboolean
 check_image (GimpImage *image, GError **error)
 {
   if (gimp_image_get_base_type (image) != GIMP_RGB)
-    return fail (error, "This image has no colours, which scribbles and regions need. Turn it into an RGB image: "
-                 "Image > Mode > RGB, or Cartoon Depth > Set up layers.");
+    return fail (error, _ ("This image has no colours, which scribbles and regions need. Turn it into an RGB image: "
+                           "Image > Mode > RGB, or Cartoon Depth > Set up layers."));
   if (gimp_image_get_floating_sel (image))
-    return fail (error, "There is a floating selection. Anchor it first: Layer > Anchor Floating Layer or Mask.");
+    return fail (error, _ ("There is a floating selection. Anchor it first: Layer > Anchor Floating Layer or Mask."));
   return TRUE;
 }
 
@@ -72,11 +72,11 @@ static gboolean
 check_layers (GimpLayer *const layer[CELD_N_LAYERS], const CeldPathArrows *paths, GError **error)
 {
   if (!layer[CELD_LAYER_DRAWING])
-    return fail (error, "There is no layer named \"Drawing\", and there are several that could be it. Name it, or "
-                 "choose it in the dialog.");
+    return fail (error, _ ("There is no layer named \"Drawing\", and there are several that could be it. Name it, or "
+                           "choose it in the dialog."));
   if (!layer[CELD_LAYER_SCRIBBLES] && !layer[CELD_LAYER_ARROWS] && !paths->n)
-    return fail (error, "There is no layer with scribbles or arrows. Choose one in the dialog, or make them with "
-                 "Cartoon Depth > Set up layers, and scribble over each part in a colour of its own.");
+    return fail (error, _ ("There is no layer with scribbles or arrows. Choose one in the dialog, or make them with "
+                           "Cartoon Depth > Set up layers, and scribble over each part in a colour of its own."));
   return TRUE;
 }
 
@@ -154,8 +154,8 @@ show_problems (CeldPipeline *pipeline, const CeldPathArrows *paths)
   if (problems)
     g_message ("%s", problems);
   if (paths->left_out)
-    g_message ("Strokes of the path Arrows that are no arrows were left out: %d. They are closed, or have one point. "
-               "An arrow goes from its first point, on the nearer part, to its last one.", paths->left_out);
+    g_message (_ ("Strokes of the path Arrows that are no arrows were left out: %d. They are closed, or have one "
+                  "point. An arrow goes from its first point, on the nearer part, to its last one."), paths->left_out);
   g_free (problems);
 }
 
@@ -169,7 +169,7 @@ read_and_make (const CeldProcedure *p, GimpImage *image, GimpProcedureConfig *co
   CeldPipeline  *pipeline = NULL;
   gboolean       good;
 
-  gimp_progress_init ("Reading the layers");
+  gimp_progress_init (_ ("Reading the layers"));
   celd_layers_chosen (config, layer);
   if (check_layers (layer, &paths, error))
     pipeline = open_pipeline (image, config, layer, &paths, error);

@@ -28,8 +28,8 @@ static const Offered offered[] = {
   { .name = "light-elevation", .offered = CELD_FOR_POPUP },
   { .name = "ambient", .offered = CELD_FOR_POPUP },
   { .name = "light-model", .offered = CELD_FOR_POPUP, .choices = CELD_MODEL_MATCAP,
-    .help = "How surfaces are lit: softly; more softly, so that light reaches around the parts; or in steps, as in cel "
-            "animation" },
+    .help = N_ ("How surfaces are lit: softly; more softly, so that light reaches around the parts; or in steps, as in "
+                "cel animation") },
   { .name = "toon-steps", .offered = CELD_FOR_POPUP },
   { .name = "specular", .offered = CELD_FOR_POPUP },
   { .name = "rim-light", .offered = CELD_FOR_POPUP },
@@ -39,25 +39,26 @@ static const Offered offered[] = {
   { .name = "shadow-size", .offered = CELD_FOR_POPUP },
   { .name = "shadow-offset", .offered = CELD_FOR_POPUP },
   { .name = "complete", .offered = CELD_FOR_SPLIT },
-  { .name = "stereo", .offered = CELD_FOR_STEREO, .label = "_Arrangement",
-    .help = "How the two views are shown: mixed for red and cyan glasses; beside or above each other; by alternating "
-            "rows or columns for a screen that separates them; one of them; or each in a layer of its own",
-    .more = { "two-layers", "Two layers, one for each eye" } },
-  { .name = "disparity", .offered = CELD_FOR_STEREO, .label = "_Eye distance",
-    .help = "How far the nearest and the farthest depth are displaced between the views, as a part of the width. More "
-            "than 3.3 % (0.033) strains the eyes" },
-  { .name = "convergence", .offered = CELD_FOR_STEREO, .label = "Con_vergence" },
+  { .name = "stereo", .offered = CELD_FOR_STEREO, .label = N_ ("_Arrangement"),
+    .help = N_ ("How the two views are shown: mixed for red and cyan glasses; beside or above each other; by "
+                "alternating rows or columns for a screen that separates them; one of them; or each in a layer of its "
+                "own"),
+    .more = { "two-layers", N_ ("Two layers, one for each eye") } },
+  { .name = "disparity", .offered = CELD_FOR_STEREO, .label = N_ ("_Eye distance"),
+    .help = N_ ("How far the nearest and the farthest depth are displaced between the views, as a part of the width. "
+                "More than 3.3 % (0.033) strains the eyes") },
+  { .name = "convergence", .offered = CELD_FOR_STEREO, .label = N_ ("Con_vergence") },
   { .name = "floating-window", .offered = CELD_FOR_STEREO },
   { .name = "screen-width", .offered = CELD_FOR_STEREO },
   { .name = "mesh-kind", .offered = CELD_FOR_MESH },
-  { .name = "mesh-size", .offered = CELD_FOR_MESH, .label = "_Longer side" },
-  { .name = "relief-bulge", .offered = CELD_FOR_MESH, .label = "_Roundness" },
-  { .name = "relief-depth", .offered = CELD_FOR_MESH, .label = "_Depth" },
-  { .name = "relief-from", .offered = CELD_FOR_MESH, .label = "One surface is round from",
-    .help = "Whether one surface bulges as if inflated, or follows the normals. Parts are always inflated" },
-  { .name = "mesh-plate", .offered = CELD_FOR_MESH, .label = "Thickness of the plate" },
-  { .name = "mesh-error", .offered = CELD_FOR_MESH, .label = "Deviation in pixels" },
-  { .name = "most-vertices", .offered = CELD_FOR_MESH, .label = "Most vertices" },
+  { .name = "mesh-size", .offered = CELD_FOR_MESH, .label = N_ ("_Longer side") },
+  { .name = "relief-bulge", .offered = CELD_FOR_MESH, .label = N_ ("_Roundness") },
+  { .name = "relief-depth", .offered = CELD_FOR_MESH, .label = N_ ("_Depth") },
+  { .name = "relief-from", .offered = CELD_FOR_MESH, .label = N_ ("One surface is round from"),
+    .help = N_ ("Whether one surface bulges as if inflated, or follows the normals. Parts are always inflated") },
+  { .name = "mesh-plate", .offered = CELD_FOR_MESH, .label = N_ ("Thickness of the plate") },
+  { .name = "mesh-error", .offered = CELD_FOR_MESH, .label = N_ ("Deviation in pixels") },
+  { .name = "most-vertices", .offered = CELD_FOR_MESH, .label = N_ ("Most vertices") },
   { .name = "ink", .offered = ALL },
   { .name = "ink-threshold", .offered = ALL },
   { .name = "arrow-style", .offered = ALL },
@@ -81,9 +82,9 @@ add_choice (GimpProcedure *procedure, const CeldSettingInfo *row, const Offered 
   GimpChoice *choice = gimp_choice_new ();
 
   for (int i = 0; i < (o->choices ? o->choices : (int) row->choices); i++)
-    gimp_choice_add (choice, row->choice[i].nick, i, row->choice[i].label, NULL);
+    gimp_choice_add (choice, row->choice[i].nick, i, _ (row->choice[i].label), NULL);
   if (o->more.nick)
-    gimp_choice_add (choice, o->more.nick, (int) row->choices, o->more.label, NULL);
+    gimp_choice_add (choice, o->more.nick, (int) row->choices, _ (o->more.label), NULL);
   gimp_procedure_add_choice_argument (procedure, row->name, label, help, choice, row->choice[(int) row->usual].nick,
                                       G_PARAM_READWRITE);
 }
@@ -92,7 +93,7 @@ static void
 add_setting (GimpProcedure *procedure, const Offered *o)
 {
   const CeldSettingInfo *row = celd_setting_find (o->name);
-  const char            *label = o->label ? o->label : row->label, *help = o->help ? o->help : row->help;
+  const char            *label = _ (o->label ? o->label : row->label), *help = _ (o->help ? o->help : row->help);
 
   switch (row->type)
     {
@@ -127,16 +128,16 @@ celd_settings_add_arguments (GimpProcedure *procedure, guint whose)
 {
   for (int role = 0; role < CELD_N_LAYERS; role++)
     gimp_procedure_add_layer_argument (procedure, celd_layer_arguments[role],
-                                       celd_layer_role_name ((CeldLayerRole) role), celd_layer_help[role], TRUE,
-                                       G_PARAM_READWRITE);
+                                       _ (celd_layer_role_name ((CeldLayerRole) role)), _ (celd_layer_help[role]),
+                                       TRUE, G_PARAM_READWRITE);
   for (int i = 0; whose & CELD_FOR_POPUP && i < CELD_POPUP_PICTURES; i++)
-    gimp_procedure_add_boolean_argument (procedure, celd_pictures[i].argument, celd_pictures[i].label,
-                                         celd_pictures[i].help, celd_pictures[i].usual, G_PARAM_READWRITE);
+    gimp_procedure_add_boolean_argument (procedure, celd_pictures[i].argument, _ (celd_pictures[i].label),
+                                         _ (celd_pictures[i].help), celd_pictures[i].usual, G_PARAM_READWRITE);
   for (gsize i = 0; i < G_N_ELEMENTS (offered); i++)
     if (offered[i].offered & whose)
       add_setting (procedure, &offered[i]);
-  gimp_procedure_add_string_argument (procedure, "relations", "Relations",
-                                      "Relations as text, beside arrows: 120,80 > 300,95 or #ff0000 > #0000ff", "",
+  gimp_procedure_add_string_argument (procedure, "relations", _ ("Relations"),
+                                      _ ("Relations as text, beside arrows: 120,80 > 300,95 or #ff0000 > #0000ff"), "",
                                       G_PARAM_READWRITE);
 }
 
@@ -168,7 +169,7 @@ celd_settings_chosen (GimpProcedureConfig *config)
 void
 celd_file_add_argument (GimpProcedure *procedure, const char *help)
 {
-  gimp_procedure_add_file_argument (procedure, "file", "F_ile", help, GIMP_FILE_CHOOSER_ACTION_SAVE, TRUE, NULL,
+  gimp_procedure_add_file_argument (procedure, "file", _ ("F_ile"), help, GIMP_FILE_CHOOSER_ACTION_SAVE, TRUE, NULL,
                                     G_PARAM_READWRITE);
 }
 

@@ -65,7 +65,7 @@ prepare_drawing (GimpLayer *drawing)
   char *name = gimp_item_get_name (GIMP_ITEM (drawing));
 
   if (celd_layer_role_of_name (name) != CELD_LAYER_DRAWING)
-    gimp_item_set_name (GIMP_ITEM (drawing), celd_layer_role_name (CELD_LAYER_DRAWING));
+    gimp_item_set_name (GIMP_ITEM (drawing), _ (celd_layer_role_name (CELD_LAYER_DRAWING)));
   gimp_item_set_lock_content (GIMP_ITEM (drawing), TRUE);
   gimp_item_set_lock_position (GIMP_ITEM (drawing), TRUE);
   g_free (name);
@@ -75,7 +75,7 @@ prepare_drawing (GimpLayer *drawing)
 static GimpLayer *
 add_layer (GimpImage *image, CeldLayerRole role, GimpLayer *below)
 {
-  GimpLayer *layer = gimp_layer_new (image, celd_layer_role_name (role), gimp_image_get_width (image),
+  GimpLayer *layer = gimp_layer_new (image, _ (celd_layer_role_name (role)), gimp_image_get_width (image),
                                      gimp_image_get_height (image), GIMP_RGBA_IMAGE, 100, GIMP_LAYER_MODE_NORMAL);
   GimpItem  *parent = gimp_item_get_parent (GIMP_ITEM (below));
 
@@ -111,7 +111,7 @@ set_up (GimpImage *image, GimpProcedureConfig *config, GError **error)
   if (!layer[CELD_LAYER_DRAWING])
     {
       g_set_error_literal (error, CELD_PIPELINE_ERROR, CELD_PIPELINE_FAILED,
-                           "The image has no layer with a drawing. Put the drawing on a layer of it first.");
+                           _ ("The image has no layer with a drawing. Put the drawing on a layer of it first."));
       return FALSE;
     }
   gimp_image_undo_group_start (image);
@@ -147,18 +147,18 @@ add_arguments (GimpProcedure *procedure)
 {
   for (gsize i = 0; i < G_N_ELEMENTS (made); i++)
     gimp_procedure_add_boolean_argument (procedure, celd_layer_arguments[made[i].role],
-                                         celd_layer_role_name (made[i].role),
-                                         "Whether this layer is made if it is missing", made[i].usual,
+                                         _ (celd_layer_role_name (made[i].role)),
+                                         _ ("Whether this layer is made if it is missing"), made[i].usual,
                                          G_PARAM_READWRITE);
 }
 
 const CeldProcedure celd_setup_procedure = {
   .name          = "plug-in-celdepth-set-up-layers",
-  .menu_label    = "_Set up layers",
-  .blurb         = "Makes layers for scribbles, arrows and contours, locks the drawing, and offers 24 colours to "
-                   "scribble with",
-  .help          = "Layers that are there already stay as they are. The lowest layer is the drawing if none has that "
-                   "name. An image without colours becomes an RGB image.",
+  .menu_label    = N_ ("_Set up layers"),
+  .blurb         = N_ ("Makes layers for scribbles, arrows and contours, locks the drawing, and offers 24 colours to "
+                       "scribble with"),
+  .help          = N_ ("Layers that are there already stay as they are. The lowest layer is the drawing if none has "
+                       "that name. An image without colours becomes an RGB image."),
   .add_arguments = add_arguments,
   .run           = run,
 };

@@ -60,14 +60,14 @@ add_arguments (GimpProcedure *procedure)
 
 const CeldProcedure celd_split_procedure = {
   .name          = "plug-in-celdepth-split-into-layers",
-  .menu_label    = "Spl_it into layers...",
-  .blurb         = "Cuts a drawing into a layer for each part, in the order of depth",
-  .help          = "Makes a group with one layer for each part, with its own lines; over each other they are the "
-                   "drawing. If they are completed they have also what nearer parts hide. Layers are found as by "
-                   "Pop-up.",
+  .menu_label    = N_ ("Spl_it into layers..."),
+  .blurb         = N_ ("Cuts a drawing into a layer for each part, in the order of depth"),
+  .help          = N_ ("Makes a group with one layer for each part, with its own lines; over each other they are the "
+                       "drawing. If they are completed they have also what nearer parts hide. Layers are found as by "
+                       "Pop-up."),
   .add_arguments = add_arguments,
   .run           = celd_run,
-  .title         = "Split into layers",
+  .title         = N_ ("Split into layers"),
   .make          = make,
   .write         = write_result,
 };

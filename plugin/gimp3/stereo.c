@@ -10,9 +10,9 @@
 enum { JOINED, LEFT, RIGHT };
 
 static const CeldResultLayer layers[] = {
-  { "stereo",       "Stereo",     GIMP_RGBA_IMAGE, JOINED },
-  { "stereo-left",  "Left view",  GIMP_RGBA_IMAGE, LEFT },
-  { "stereo-right", "Right view", GIMP_RGBA_IMAGE, RIGHT },
+  { "stereo",       N_ ("Stereo"),     GIMP_RGBA_IMAGE, JOINED },
+  { "stereo-left",  N_ ("Left view"),  GIMP_RGBA_IMAGE, LEFT },
+  { "stereo-right", N_ ("Right view"), GIMP_RGBA_IMAGE, RIGHT },
 };
 
 /* ------------------------------------------------------------------ the arrangement */
@@ -134,9 +134,10 @@ static void
 add_arguments (GimpProcedure *procedure)
 {
   celd_settings_add_arguments (procedure, CELD_FOR_STEREO);
-  gimp_procedure_add_boolean_argument (procedure, "new-image", "In a _new image",
-                                       "Makes a new image. Otherwise the views are layers of the group Cartoon Depth, "
-                                       "if they have its size: whole views beside or above each other do not",
+  gimp_procedure_add_boolean_argument (procedure, "new-image", _ ("In a _new image"),
+                                       _ ("Makes a new image. Otherwise the views are layers of the group Cartoon "
+                                          "Depth, if they have its size: whole views beside or above each other do "
+                                          "not"),
                                        FALSE, G_PARAM_READWRITE);
   gimp_procedure_add_layer_return_value (procedure, "layer", "Layer", "The layer with both views, or with the left one",
                                          FALSE, G_PARAM_READWRITE);
@@ -144,14 +145,15 @@ add_arguments (GimpProcedure *procedure)
 
 const CeldProcedure celd_stereo_procedure = {
   .name          = "plug-in-celdepth-stereo",
-  .menu_label    = "S_tereo...",
-  .blurb         = "Turns the drawing into a stereo picture: for red and cyan glasses, side by side, or in two layers",
-  .help          = "The parts are cut out, completed where nearer ones hide them, and moved for each eye by their "
-                   "depth. The result is in the group Cartoon Depth, where another run updates it, or in a new image. "
-                   "Layers are found as by Pop-up.",
+  .menu_label    = N_ ("S_tereo..."),
+  .blurb         = N_ ("Turns the drawing into a stereo picture: for red and cyan glasses, side by side, or in two "
+                       "layers"),
+  .help          = N_ ("The parts are cut out, completed where nearer ones hide them, and moved for each eye by their "
+                       "depth. The result is in the group Cartoon Depth, where another run updates it, or in a new "
+                       "image. Layers are found as by Pop-up."),
   .add_arguments = add_arguments,
   .run           = celd_run,
-  .title         = "Stereo",
+  .title         = N_ ("Stereo"),
   .elsewhere     = is_elsewhere,
   .make          = make,
   .write         = write_result,

@@ -5,7 +5,7 @@
  */
 #include "gimp3.h"
 
-#define NAME "Suggested arrows"
+#define NAME N_ ("Suggested arrows")
 #define MARK "suggestions"
 
 static gboolean
@@ -46,8 +46,9 @@ write_result (CeldPipeline *pipeline, GimpImage *image, GimpProcedureConfig *con
   celd_layers_chosen (config, chosen);
   celd_layers_find (image, named);
   below  = chosen[CELD_LAYER_ARROWS] ? chosen[CELD_LAYER_ARROWS] : named[CELD_LAYER_ARROWS];
-  layer  = gimp_layer_new (image, below ? NAME : celd_layer_role_name (CELD_LAYER_ARROWS), gimp_image_get_width (image),
-                           gimp_image_get_height (image), GIMP_RGBA_IMAGE, 100, GIMP_LAYER_MODE_NORMAL);
+  layer  = gimp_layer_new (image, _ (below ? NAME : celd_layer_role_name (CELD_LAYER_ARROWS)),
+                           gimp_image_get_width (image), gimp_image_get_height (image), GIMP_RGBA_IMAGE, 100,
+                           GIMP_LAYER_MODE_NORMAL);
   buffer = gimp_drawable_get_buffer (GIMP_DRAWABLE (layer));
   good   = celd_pipeline_write (pipeline, CELD_PICTURE_SUGGESTIONS, buffer, error);
   g_object_unref (buffer); /* which sends the pixels */
@@ -69,14 +70,14 @@ add_arguments (GimpProcedure *procedure)
 
 const CeldProcedure celd_suggest_procedure = {
   .name          = "plug-in-celdepth-suggest-order",
-  .menu_label    = "Suggest _order...",
-  .blurb         = "Draws arrows from parts that seem nearer to those behind them, from the drawing alone",
-  .help          = "Makes a layer of arrows; orange ones are hardly more than a guess, green ones nearly certain. "
-                   "Erase wrong arrows, and merge the layer down onto Arrows. Another run replaces the layer. Without "
-                   "a layer Arrows the new layer is Arrows.",
+  .menu_label    = N_ ("Suggest _order..."),
+  .blurb         = N_ ("Draws arrows from parts that seem nearer to those behind them, from the drawing alone"),
+  .help          = N_ ("Makes a layer of arrows; orange ones are hardly more than a guess, green ones nearly certain. "
+                       "Erase wrong arrows, and merge the layer down onto Arrows. Another run replaces the layer. "
+                       "Without a layer Arrows the new layer is Arrows."),
   .add_arguments = add_arguments,
   .run           = celd_run,
-  .title         = "Suggest order",
+  .title         = N_ ("Suggest order"),
   .make          = make,
   .write         = write_result,
 };
