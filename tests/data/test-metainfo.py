@@ -27,9 +27,12 @@ class Metainfo(unittest.TestCase):
     root = ElementTree.parse(METAINFO).getroot()
 
     def test_valid(self):
-        done = subprocess.run(['appstreamcli', 'validate', '--no-net', METAINFO], capture_output=True, text=True,
-                              check=False)
-        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        """Newer versions warn that there is no public page, which celdepth does not have yet."""
+        said = subprocess.run(['appstreamcli', 'validate', '--no-net', '--no-color', METAINFO], capture_output=True,
+                              text=True, check=False).stdout
+        self.assertIn('alidation', said)
+        self.assertEqual([line for line in said.splitlines()
+                          if re.match(r'\s*[EW]:', line) and 'url-homepage-missing' not in line], [])
 
     def test_what_gimp_needs(self):
         """GIMP refuses an extension that lacks one of these, or is in a folder of another name."""
