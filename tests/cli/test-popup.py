@@ -40,7 +40,7 @@ class OneRun(Test):
         self.celdepth('stereo', *INPUT, '--left', 'left-alone.png', '--right', 'right-alone.png', '--joined',
                       'joined-alone.png')
         self.same_layers(read_open_raster(self.path('page.ora'))[0], read_open_raster(self.path('alone.ora'))[0],
-                         1.01.01 / 255)
+                         1.01 / 255)
         for name in 'enhanced', 'left', 'right', 'joined':
             self.same(f'{name}.png', f'{name}-alone.png')
         self.celdepth('popup', *INPUT, '--encoding', 'rank', '--enhanced', 'enhanced-ranks.png', '--left',
