@@ -42,22 +42,28 @@ celd_results_is_group (GimpItem *item)
 
 /* ------------------------------------------------------------------ finding */
 
-/* The first group of results among these items and inside them, that is locked or that is not. */
+/* The lowest group of results among these items and inside them, that is locked or that is not.  A copy of a group, or
+ * of a layer in it, has its mark, too, and lies above: it is the artist's. */
 static GimpItem *
 find_group (GimpItem **items, gboolean locked)
 {
   GimpItem *found = NULL;
 
-  for (int i = 0; items && items[i] && !found; i++)
-    if (celd_results_is_group (items[i]))
-      found = !gimp_item_get_lock_content (items[i]) == !locked ? items[i] : NULL;
-    else if (gimp_item_is_group (items[i]))
-      {
-        GimpItem **children = gimp_item_get_children (items[i]);
+  for (int i = 0; items && items[i]; i++)
+    {
+      GimpItem *here = NULL;
 
-        found = find_group (children, locked);
-        g_free (children);
-      }
+      if (celd_results_is_group (items[i]))
+        here = !gimp_item_get_lock_content (items[i]) == !locked ? items[i] : NULL;
+      else if (gimp_item_is_group (items[i]))
+        {
+          GimpItem **children = gimp_item_get_children (items[i]);
+
+          here = find_group (children, locked);
+          g_free (children);
+        }
+      found = here ? here : found;
+    }
   return found;
 }
 
@@ -85,14 +91,14 @@ get_group (GimpImage *image)
   return group;
 }
 
-/* The layer with this mark in the group; NULL: there is none. */
+/* The lowest layer with this mark in the group; NULL: there is none. */
 static GimpLayer *
 find_layer (GimpItem *group, const char *mark)
 {
   GimpItem **children = group ? gimp_item_get_children (group) : NULL;
   GimpLayer *found = NULL;
 
-  for (int i = 0; children && children[i] && !found; i++)
+  for (int i = 0; children && children[i]; i++)
     if (celd_item_is_marked (children[i], CELD_PICTURE_MARK, mark))
       found = GIMP_LAYER (children[i]);
   g_free (children);
@@ -173,20 +179,17 @@ write_all (const Writing *w, GError **error)
       const CeldResultLayer *l = &w->results->layer[i];
       GimpLayer             *layer = find_layer (GIMP_ITEM (w->group), l->mark);
       gboolean               locked = layer && gimp_item_get_lock_content (GIMP_ITEM (layer));
+      gboolean               make = (w->wanted & 1u << l->picture) != 0;
 
-      if (!(w->wanted & 1u << l->picture))
-        {
-          if (layer && !locked)
-            gimp_image_remove_layer (w->image, layer);
-          continue;
-        }
-      if (!layer)
+      if (!layer && make)
         good = add_layer (w, l, position++, show, error);
-      else if (!locked)
+      else if (layer && make && !locked)
         good = update_layer (w, l, layer, error);
-      if (layer)
+      if (layer && !make && !locked)
+        gimp_image_remove_layer (w->image, layer);
+      else if (layer)
         position = gimp_image_get_item_position (w->image, GIMP_ITEM (layer)) + 1;
-      show = FALSE;
+      show = show && !make;
     }
   return good;
 }

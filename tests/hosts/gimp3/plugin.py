@@ -89,6 +89,29 @@ def a_second_run_updates_in_place():
     image.delete()
 
 
+def copies_are_the_artists():
+    """Copies of results have the same marks: they are kept, and the originals below them updated."""
+    image = open_people(8)
+    _, group, _ = pop_up(image, ['lit', 'depth', 'regions'])
+    made = results(group)
+    whole = group.copy()
+    image.insert_layer(whole, None, 0)
+    own = made['depth'].copy()
+    image.insert_layer(own, group, image.get_item_position(made['depth']))
+    for layer in (own, *whole.get_children(), made['depth']):
+        layer.fill(Gimp.FillType.WHITE)
+    made['lit'].set_lock_content(True)
+    _, again, _ = pop_up(image, ['shading', 'depth', 'regions'])
+    check(again.get_id() == group.get_id(), 'a copy of the group above is not taken for the group')
+    check(pixels(own, 'RGB float', np.float32, 3).min() == 1 and
+          all(pixels(layer, 'RGB float', np.float32, 3).min() == 1 for layer in whole.get_children()),
+          'copies of results stay as they are')
+    check(pixels(made['depth'], 'RGB float', np.float32, 3).min() == 0, 'the original of a copy is updated')
+    check([layer.get_name() for layer in again.get_children()][:2] == ['Lit drawing', 'Shading'],
+          'a new picture comes below a locked one that lies above it')
+    image.delete()
+
+
 def input_without_sense_is_refused():
     def refused(image, words, **arguments):
         n = len(list(all_layers(image.get_layers())))
@@ -215,6 +238,7 @@ def set_up_layers_makes_what_is_missing():
 Gegl.init(None)
 results_are_those_of_the_command()
 a_second_run_updates_in_place()
+copies_are_the_artists()
 input_without_sense_is_refused()
 layers_can_be_named_by_a_script()
 layers_found_by_name_are_found_again()
