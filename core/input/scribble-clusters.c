@@ -21,6 +21,7 @@
 #include <stdlib.h>
 
 #define RIM_DISTANCE     40   /* of 255, from the colour of a rim to that of its stroke, at most; chosen */
+#define SIDE_ERROR       3    /* of 255, from the side of a soft stroke to the nearest mixture, at most: rounding */
 #define MANY_CLUSTERS    4096 /* more are a photograph, where rims are not looked for; chosen */
 #define OVERLAP_DISTANCE 3    /* pixels, across which strokes touch in spite of an antialiased rim; chosen */
 #define OVERLAP_ERROR    6    /* of 255, from the colour of an overlap to the expected one, at most; chosen */
@@ -133,14 +134,31 @@ may_be_rim (const CeldScribbleLayer *r, uint32_t k, uint32_t j)
          celd_colour_distance (c->channel, l->channel) <= RIM_DISTANCE * RIM_DISTANCE;
 }
 
-/* What a cluster may be a rim of: the candidate of a majority vote, its votes, and how often the two touch. */
+/* Is cluster k cluster j mixed with paper, as the sides of soft strokes are? */
+static bool
+may_be_side (const CeldScribbleLayer *r, uint32_t k, uint32_t j)
+{
+  const int *paper = r->colour[r->paper].channel, *c = r->cluster[k].channel, *full = r->cluster[j].channel;
+  double     length2 = celd_colour_distance (full, paper), error2 = celd_colour_distance (c, paper), along = 0;
+
+  if (!k || !j || error2 >= length2 || celd_colour_distance (c, full) > RIM_DISTANCE * RIM_DISTANCE)
+    return false;
+  for (int i = 0; i < 3; i++)
+    along += (c[i] - paper[i]) * (full[i] - paper[i]);
+  return along > 0 && error2 - along * along / length2 <= SIDE_ERROR * SIDE_ERROR;
+}
+
+/* What a cluster may be a part of: the candidate of a majority vote, its votes, and how often the two touch. */
 typedef struct { uint32_t of, votes, touch; } Parent;
+
+/* May cluster k be a part of cluster j?  No cycles of parts are possible. */
+typedef bool (*MayBePart) (const CeldScribbleLayer *r, uint32_t k, uint32_t j);
 
 /* One vote of cluster k for j, by the majority vote of Boyer and Moore. */
 static void
-vote (const CeldScribbleLayer *r, Parent *parent, uint32_t k, uint32_t j)
+vote (const CeldScribbleLayer *r, MayBePart may_be_part, Parent *parent, uint32_t k, uint32_t j)
 {
-  if (!may_be_rim (r, k, j))
+  if (!may_be_part (r, k, j))
     return;
   if (!parent[k].votes)
     parent[k].of = j;
@@ -150,7 +168,7 @@ vote (const CeldScribbleLayer *r, Parent *parent, uint32_t k, uint32_t j)
 /* For each pair of neighbouring pixels of different clusters: both vote, or, with `count`, contacts with the parent are
  * counted. */
 static void
-visit_touches (const CeldScribbleLayer *r, Parent *parent, bool count)
+visit_touches (const CeldScribbleLayer *r, MayBePart may_be_part, Parent *parent, bool count)
 {
   for (int y = 0; y < r->height; y++)
     for (int x = 0; x < r->width; x++)
@@ -168,8 +186,8 @@ visit_touches (const CeldScribbleLayer *r, Parent *parent, bool count)
                 parent[b].touch += parent[b].of == a;
                 continue;
               }
-            vote (r, parent, a, b);
-            vote (r, parent, b, a);
+            vote (r, may_be_part, parent, a, b);
+            vote (r, may_be_part, parent, b, a);
           }
 }
 
@@ -180,10 +198,10 @@ is_tint (const CeldScribbleLayer *r, const CeldScribbleCluster *c)
   return r->paper && celd_colour_distance (c->channel, r->colour[r->paper].channel) <= RIM_DISTANCE * RIM_DISTANCE;
 }
 
-/* Merges the rims and ends of strokes with their stroke: a cluster that often touches a larger one of nearly its colour
- * is a part of that, unless the picture is clean and the cluster has interior pixels. */
+/* Merges clusters with those that they often touch and may be a part of, unless the picture is clean and the cluster
+ * has interior pixels. */
 static CeldStatus
-merge_rims (CeldScribbleLayer *r)
+merge_parts (CeldScribbleLayer *r, MayBePart may_be_part)
 {
   Parent *parent = celd_alloc0 (r->n_clusters, sizeof *parent);
 
@@ -191,8 +209,8 @@ merge_rims (CeldScribbleLayer *r)
     return CELD_NO_MEMORY;
   for (uint32_t k = 0; k < r->n_clusters; k++)
     parent[k].of = k;
-  visit_touches (r, parent, false);
-  visit_touches (r, parent, true);
+  visit_touches (r, may_be_part, parent, false);
+  visit_touches (r, may_be_part, parent, true);
   for (uint32_t k = 1; k < r->n_clusters; k++)
     {
       const CeldScribbleCluster *c = &r->cluster[k];
@@ -292,7 +310,11 @@ celd_scribble_clusters (CeldScribbleLayer *r, const CeldHost *host)
     tally_clusters (r);
   if (status == CELD_OK && r->n_clusters <= MANY_CLUSTERS)
     {
-      status = merge_rims (r);
+      if (r->paper && !r->lossy)
+        status = merge_parts (r, may_be_side);
+      tally_clusters (r);
+      if (status == CELD_OK)
+        status = merge_parts (r, may_be_rim);
       tally_clusters (r);
     }
   if (status == CELD_OK)

@@ -20,6 +20,7 @@
 #define MOST_NOISE    20        /* larger noise counts as this */
 #define SIMILAR       36        /* of one colour in a lossy picture, at most */
 #define FILTER_PASSES 3         /* chosen */
+#define LEAST_SINE    0.25      /* of the angle between tints and grey, from which on they show noise; chosen */
 
 /* ------------------------------------------------------------------ exact colours */
 
@@ -117,8 +118,68 @@ count_colours (CeldScribbleLayer *r, bool flats, const CeldHost *host)
 
 /* ------------------------------------------------------------------ noise */
 
+/* How far a pixel is from the mean of its left and right neighbours. */
+static double
+distance_from_mean (const CeldScribbleLayer *r, const uint32_t *id)
+{
+  const int *a = r->colour[id[-1]].channel, *b = r->colour[id[1]].channel;
+  int        mean[3];
+
+  for (int i = 0; i < 3; i++)
+    mean[i] = (a[i] + b[i] + 1) / 2;
+  return sqrt (celd_colour_distance (mean, r->colour[id[0]].channel));
+}
+
+/* The noise of luma by which a pixel and its left and right neighbours leave the line from paper to the strongest of
+ * their colours.  Mixtures of one colour with paper are on this line, whatever the profile of the brush, and noise that
+ * is the same in all channels leaves it by the sine of the line's angle with grey. */
+static double
+noise_off_mixtures (const CeldScribbleLayer *r, const uint32_t *id)
+{
+  const int *paper = r->colour[r->paper].channel;
+  double     most = 0, off = 0, grey, sine;
+  int        strongest[3] = { 0 };
+
+  for (int k = -1; k <= 1; k++)
+    if (celd_colour_distance (r->colour[id[k]].channel, paper) > most)
+      {
+        most = celd_colour_distance (r->colour[id[k]].channel, paper);
+        for (int i = 0; i < 3; i++)
+          strongest[i] = r->colour[id[k]].channel[i] - paper[i];
+      }
+  grey = strongest[0] + strongest[1] + strongest[2];
+  sine = sqrt (fmax (1 - grey * grey / (3 * most), 0));
+  for (int k = -1; k <= 1; k++)
+    {
+      const int *c = r->colour[id[k]].channel;
+      double     along = 0;
+
+      for (int i = 0; i < 3; i++)
+        along += (c[i] - paper[i]) * strongest[i];
+      off = fmax (off, celd_colour_distance (c, paper) - along * along / most);
+    }
+  return sine > LEAST_SINE ? sqrt (off) / sine : MOST_NOISE;
+}
+
+/* The noise at a pixel, by its left and right neighbours in the same stroke; negative if they are of other ones. */
+static int
+noise_at (const CeldScribbleLayer *r, const uint32_t *id)
+{
+  const int *c = r->colour[id[0]].channel;
+  double     noise;
+
+  if (id[-1] == id[0] && id[1] == id[0])
+    return 0;
+  if (celd_colour_distance (r->colour[id[-1]].channel, c) > SIMILAR * SIMILAR ||
+      celd_colour_distance (r->colour[id[1]].channel, c) > SIMILAR * SIMILAR)
+    return -1;
+  noise = distance_from_mean (r, id);
+  return (int) (r->paper ? fmin (noise, noise_off_mixtures (r, id)) : noise);
+}
+
 /* Sets the radius to the noise and a margin.  Noise is the distance of a pixel from the mean of its left and right
- * neighbours, which is not exceeded in nine of ten places where the three are of one stroke; so ramps are no noise. */
+ * neighbours, which is not exceeded in nine of ten places where the three are of one stroke; so ramps are no noise, and
+ * neither is the middle of a soft stroke on paper. */
 static void
 measure_noise (CeldScribbleLayer *r)
 {
@@ -129,22 +190,10 @@ measure_noise (CeldScribbleLayer *r)
     for (int x = 1; x < r->width - 1; x++)
       {
         const uint32_t *id = r->id + (size_t) y * (size_t) r->width + (size_t) x;
-        const int      *a, *b, *c;
-        int             mean[3], d = 0;
+        int             d;
 
-        if (!id[-1] || !id[0] || !id[1] || id[0] == r->paper)
+        if (!id[-1] || !id[0] || !id[1] || id[0] == r->paper || (d = noise_at (r, id)) < 0)
           continue;
-        a = r->colour[id[-1]].channel;
-        b = r->colour[id[1]].channel;
-        c = r->colour[id[0]].channel;
-        if (id[-1] != id[0] || id[1] != id[0])
-          {
-            if (celd_colour_distance (a, c) > SIMILAR * SIMILAR || celd_colour_distance (b, c) > SIMILAR * SIMILAR)
-              continue;
-            for (int i = 0; i < 3; i++)
-              mean[i] = (a[i] + b[i] + 1) / 2;
-            d = (int) sqrt (celd_colour_distance (mean, c));
-          }
         places[d < MOST_NOISE ? d : MOST_NOISE]++;
         all++;
       }

@@ -319,6 +319,42 @@ blurred_strokes_on_paper (void)
   CHECK (seed_of[75 * WIDTH + 50] && seed_of[75 * WIDTH + 50] != seed_of[165 * WIDTH + 200]);
 }
 
+/* Narrow soft brushes of half opacity, flattened on white: each label has the tint in the middle of its strokes, and
+ * near colours remain two although their tints are twice as near. */
+static void
+narrow_translucent_strokes_on_paper (void)
+{
+  static const uint8_t pure[5][3] = { { 255, 13, 13 }, { 184, 73, 170 }, { 160, 73, 184 }, { 124, 73, 184 },
+                                      { 102, 198, 255 } };
+
+  for (int width = 3; width < 10; width++)
+    {
+      clear_paint (true);
+      for (int k = 0; k < 5; k++)
+        for (int y = 40 * k + 20; y < 40 * k + 60; y++)
+          for (int x = 20; x < 320; x++)
+            {
+              double away = fabs (y - 40 * k - 40 - 10 * sin (x / 40.));
+
+              lay (x, y, pure[k], 0.5 * fmin (fmax (1.6 * (1 - 2 * away / width), 0), 1));
+            }
+      CHECK (read_size (WIDTH, HEIGHT) == CELD_OK && palette.n == 5);
+      for (int k = 0; k < 5; k++)
+        {
+          uint8_t  tint[3] = { (uint8_t) ((255 + pure[k][0]) / 2), (uint8_t) ((255 + pure[k][1]) / 2),
+                               (uint8_t) ((255 + pure[k][2]) / 2) };
+          uint32_t label = seed_of[(40 * k + 40 + 7) * WIDTH + 31];
+          int      wrong = 0;
+
+          for (int x = 20; x < 320; x++)
+            wrong += seed_of[(40 * k + 40 + (int) floor (10 * sin (x / 40.) + 0.5)) * WIDTH + x] != label;
+          CHECK (in_palette (tint, 1));
+          CHECK (wrong == 0 && label && label <= palette.n && abs (palette.item[label - 1].colour[0] - tint[0]) <= 1 &&
+                 abs (palette.item[label - 1].colour[1] - tint[1]) <= 1);
+        }
+    }
+}
+
 static void
 half_transparent_is_the_limit (void)
 {
@@ -398,6 +434,7 @@ main (void)
   RUN (flats_and_paper);
   RUN (soft_brushes_on_paper);
   RUN (blurred_strokes_on_paper);
+  RUN (narrow_translucent_strokes_on_paper);
   RUN (half_transparent_is_the_limit);
   RUN (remains_of_hard_strokes);
   RUN (sizes);
