@@ -19,13 +19,26 @@ ink_step (const CeldHost *host, Results *r)
   return celd_ink (&drawing, CELD_INK_AUTO, host, &ink);
 }
 
-/* Of the noisy layer, so that it is smoothed first. */
 static CeldStatus
-coloured_lines_step (const CeldHost *host, Results *r)
+sprite_lines_step (const CeldHost *host, Results *r)
 {
   CeldPaint   art = paint_of (&lossy_pixels);
   CeldDrawing drawing = drawing_of (r->pixels);
 
+  return celd_coloured_lines (&art, CELD_INK_LINES, host, &drawing);
+}
+
+/* The same with grain in 40 shades, so that it is no sprite and is smoothed first. */
+static CeldStatus
+coloured_lines_step (const CeldHost *host, Results *r)
+{
+  Pixels      grainy = lossy_pixels;
+  CeldPaint   art = paint_of (&grainy);
+  CeldDrawing drawing = drawing_of (r->pixels);
+
+  for (int y = 0; y < art.height; y++)
+    for (int x = 0; x < art.width; x++)
+      CELD_RGBA (&art, x, y)[1] = (uint8_t) (CELD_RGBA (&art, x, y)[1] - (29 * x + 17 * y) % 40);
   return celd_coloured_lines (&art, CELD_INK_LINES, host, &drawing);
 }
 
@@ -306,6 +319,7 @@ background_step (const CeldHost *host, Results *r)
 const Step region_steps[] = {
   { "ink", ink_step, NULL, true },
   { "coloured lines", coloured_lines_step, NULL, true },
+  { "lines of a sprite", sprite_lines_step, NULL, true },
   { "contours", contours_step, NULL, true },
   { "scribbles", scribbles_step, NULL, true },
   { "lossy scribbles", lossy_step, NULL, true },

@@ -9,7 +9,8 @@
  * 4. Strength: the contrast, divided by that of the core of the line.
  * 5. Where lines meet, and where strokes are thicker than most, they are wider than the window.  There, what has the
  *    colour of lines and fits into the widest window is a line as well (thick-lines.c).
- * Large areas in the colour of lines remain fills: an artist can scribble on them.
+ * Large areas in the colour of lines remain fills: an artist can scribble on them.  Sprites have lines that need no
+ * windows (sprite-lines.c).
  *
  * Cost: O(pixels), whatever the width of lines; 14 bytes a pixel.
  *
@@ -470,7 +471,14 @@ celd_coloured_lines (const CeldPaint *art, CeldInkMode mode, const CeldHost *hos
   if (status == CELD_OK)
     {
       take_channels (l, art);
-      if (mode == CELD_INK_LINES || celd_is_coloured (l->channel))
+      if (celd_sprite_lines (l->channel, mode == CELD_INK_AUTO, l->work, &l->closed, &l->level))
+        {
+          memset (l->contrast.data, 0, pixels (l)); /* there are no thick strokes besides */
+          status = celd_progress (host, 0.9);
+          if (status == CELD_OK)
+            write_lines (l, drawing);
+        }
+      else if (mode == CELD_INK_LINES || celd_is_coloured (l->channel))
         status = find_lines (l, drawing);
     }
   end_work (l);

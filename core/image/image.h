@@ -150,6 +150,11 @@ void celd_invert_bytes (CeldMask *mask);
 /* coloured.c: whether red, green and blue of an opaque drawing have fills of several hues. */
 bool celd_is_coloured (const CeldMask channel[3]);
 
+/* sprite-lines.c: if a picture is pixel art in a few exact colours, with lines, sets `lines` to 255 at them and to 0
+ * elsewhere; returns whether it is.  With `only_coloured` it has fills with hues as well.  `work` is for radius 2,
+ * `spare` is overwritten, and so is `lines`; all have one size. */
+bool celd_sprite_lines (const CeldMask channel[3], bool only_coloured, void *work, CeldMask *spare, CeldMask *lines);
+
 /* line-width.c: the radius of the smallest closing that finds 95 % of the dark lines that one of about twice the radius
  * finds; if there is none, of the one with the largest such share.  *share is that share; `widest` limits the radius;
  * `work` is for twice the widest radius, `closed` is overwritten.  Of a large picture only bands of rows are looked
