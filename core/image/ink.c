@@ -237,20 +237,21 @@ nearest_contrast (const CeldPlane *contrast, int x, int y)
   return CELD_AT (contrast, x, y);
 }
 
-/* Whether there is paper on both sides of a pixel, and between less ink than that of a black line a pixel wide. */
+/* Whether there is paper on both sides of a pixel, and between less ink than that of a black line a pixel wide; or as
+ * much, if the line lies between two rows of pixels, so that neither has most of it. */
 static bool
 is_thin_ridge (const CeldPlane *contrast, int x, int y, float dark)
 {
   static const struct { int x, y; float apart; } across[] = { { 1, 0, 1 }, { 0, 1, 1 },
                                                               { 1, 1, 1.414f }, { 1, -1, 1.414f } };
-  float c = CELD_AT (contrast, x, y);
+  float c = CELD_AT (contrast, x, y), most = (c < 0.6f * dark ? 1.2f : 0.8f) * dark;
 
   for (int i = 0; i < 4; i++)
     {
       int   u = across[i].x, v = across[i].y;
       float before = nearest_contrast (contrast, x - u, y - v), after = nearest_contrast (contrast, x + u, y + v);
 
-      if (celd_most (before, after) <= c && across[i].apart * (before + c + after) < 0.8f * dark &&
+      if (celd_most (before, after) <= c && across[i].apart * (before + c + after) < most &&
           nearest_contrast (contrast, x - 2 * u, y - 2 * v) < 0.25f * c &&
           nearest_contrast (contrast, x + 2 * u, y + 2 * v) < 0.25f * c)
         return true;
