@@ -16,7 +16,7 @@ import time
 import gi
 
 gi.require_version('Gegl', '0.4')
-from gi.repository import Gegl  # noqa: E402
+from gi.repository import Gegl, GObject  # noqa: E402
 
 
 def node(graph, operation, **properties):
@@ -61,7 +61,7 @@ class Graph:
         made = node(self.all, operation)
         for pad, source in pads.items():
             source.connect_to('output', made, pad)
-        made.connect('progress', self.note_operation)
+        GObject.Object.connect(made, 'progress', self.note_operation)  # newer nodes have their own connect
         return made
 
     def note_operation(self, operation, progress):
@@ -70,7 +70,7 @@ class Graph:
             self.made.append(operation.get_operation().removeprefix('celdepth:'))
 
     def read_depth(self, step, out):
-        """Depth is linear and between 0 and 1, 1 is nearest: read it as "Y float", whatever the format of the drawing."""
+        """Depth is linear and between 0 and 1, 1 is nearest: read it as "Y float", whatever the drawing's format."""
         box = self.depth.get_bounding_box()
         depth = Gegl.Buffer.new('Y float', box.x, box.y, box.width, box.height)
         start = time.monotonic()

@@ -2,7 +2,8 @@
 #
 #   chroot_make SUITE NAME PACKAGE...  a system of its own under $chroot_home/NAME; one that is there is used again
 #   chroot_copy NAME COPY              a second one, to be spoilt
-#   chroot_tree NAME                   the working tree into its /celdepth, without what git ignores
+#   chroot_tree NAME                   the working tree into its /celdepth, without what git ignores; all files are new to
+#                                      a build that was kept
 #   chroot_commit NAME                 the last commit into its /celdepth
 #   chroot_run NAME COMMAND...         runs a command in it
 #
@@ -53,7 +54,7 @@ chroot_tree ()
   rm -rf "$root/celdepth"
   mkdir "$root/celdepth"
   git -c safe.directory='*' ls-files -z --cached --others --exclude-standard | xargs -0 -r ls -d 2>/dev/null |
-    tar -cf - -T - | tar -xf - -C "$root/celdepth"
+    tar -cf - -T - | tar -xmf - -C "$root/celdepth"
 }
 
 chroot_commit ()
