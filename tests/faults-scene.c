@@ -79,7 +79,7 @@ draw_scene (void)
 const Step *
 step_at (size_t i)
 {
-  static const Step *const subject[] = { region_steps, depth_steps, use_steps, solver_steps };
+  static const Step *const subject[] = { region_steps, depth_steps, use_steps, motion_steps, solver_steps };
 
   for (size_t k = 0; k < sizeof subject / sizeof *subject; k++)
     for (const Step *step = subject[k]; step->name; step++)

@@ -52,7 +52,7 @@ static inline CeldVectors vectors_of (Pixels *p) { return (CeldVectors) { W, H, 
 static inline CeldDrawing drawing_of (Pixels *p) { return (CeldDrawing) { plane_of (p), { W, H, W, p->alpha } }; }
 
 /* Those of each subject, in the order of the pipeline; the one after the last has no name. */
-extern const Step region_steps[], depth_steps[], use_steps[], solver_steps[];
+extern const Step region_steps[], depth_steps[], use_steps[], motion_steps[], solver_steps[];
 
 /* The i-th of all; NULL: there are no more. */
 const Step *step_at (size_t i);
