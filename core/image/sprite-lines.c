@@ -43,7 +43,7 @@ index_of (SpriteColours *s, const uint8_t channel[3])
   if (s->n == SPRITE_COLOURS)
     return -1;
   s->colour[s->n] = (SpriteColour) { { channel[0], channel[1], channel[2] },
-                               .luma = (77 * channel[0] + 150 * channel[1] + 29 * channel[2] + 128) >> 8 };
+                                     .luma = (77 * channel[0] + 150 * channel[1] + 29 * channel[2] + 128) >> 8 };
   return s->n++;
 }
 
@@ -86,9 +86,9 @@ count_neighbours (const CeldMask *index, SpriteColours *s)
   for (int y = 0; y < index->height; y++)
     for (int x = 0; x < index->width; x++)
       {
-        SpriteColour  *c = &s->colour[CELD_AT (index, x, y)];
-        uint32_t edges = c->edges;
-        bool     ramp = false;
+        SpriteColour *c = &s->colour[CELD_AT (index, x, y)];
+        uint32_t      edges = c->edges;
+        bool          ramp = false;
 
         for (int i = 0; i < 2; i++)
           {
@@ -155,8 +155,8 @@ bool
 celd_sprite_lines (const CeldMask channel[3], bool only_coloured, void *work, CeldMask *spare, CeldMask *lines)
 {
   SpriteColours s = { .n = 0 };
-  size_t  n = (size_t) lines->width * (size_t) lines->height, n_lines = 0;
-  bool    line[SPRITE_COLOURS];
+  size_t        n = (size_t) lines->width * (size_t) lines->height, n_lines = 0;
+  bool          line[SPRITE_COLOURS];
 
   if (lines->width > SPRITE_SIDE || lines->height > SPRITE_SIDE || !count_colours (channel, lines, &s) || s.n < 3)
     return false;

@@ -10,6 +10,7 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
+#include "base/base.h"
 #include "image/image.h"
 #include "input/input.h"
 
@@ -19,7 +20,7 @@
 /* Distances between channels of neighbouring pixels, in steps of 1/255; all chosen. */
 #define EQUAL_STEP 2  /* at most: slow gradients, and rounding */
 #define SLOPE_STEP 12 /* at most, on a slope */
-#define ROUGHNESS   2  /* by which steps of a slope may differ, beside a factor of two */
+#define ROUGHNESS  2  /* by which steps of a slope may differ, beside a factor of two */
 
 typedef struct { uint64_t sum[3]; uint32_t n, id; int distance; } FlatPiece;
 
@@ -29,7 +30,7 @@ static ColourStep
 step_between (const CeldScribbleLayer *r, size_t p, size_t q)
 {
   const int *a = r->colour[r->id[p]].channel, *b = r->colour[r->id[q]].channel;
-  ColourStep       step = { .most = 0 };
+  ColourStep step = { .most = 0 };
 
   for (int c = 0; c < 3; c++)
     {
@@ -68,8 +69,8 @@ along_column (const CeldScribbleLayer *r, int x, int y)
 static bool
 goes_on (const CeldScribbleLayer *r, PixelWay a)
 {
-  size_t p = a.pixel, next = a.next;
-  ColourStep   step;
+  size_t     p = a.pixel, next = a.next;
+  ColourStep step;
 
   if (!r->id[p] || !r->id[p + next])
     return false;
@@ -102,40 +103,19 @@ belong_together (const CeldScribbleLayer *r, PixelWay a, const PixelWay across[2
 
 /* ------------------------------------------------------------------ pieces: union-find in r->label */
 
-static uint32_t
-root_of (uint32_t *parent, uint32_t p)
-{
-  while (parent[p] != p)
-    p = parent[p] = parent[parent[p]];
-  return p;
-}
-
-/* The first pixel in reading order stands for a piece. */
-static void
-join (uint32_t *parent, size_t p, size_t q)
-{
-  uint32_t a = root_of (parent, (uint32_t) p), b = root_of (parent, (uint32_t) q);
-
-  if (a < b)
-    parent[b] = a;
-  else
-    parent[a] = b;
-}
-
 static void
 find_pieces (CeldScribbleLayer *r)
 {
-  for (size_t p = 0; p < r->pixels; p++)
-    r->label[p] = (uint32_t) p;
+  celd_roots (r->label, r->pixels);
   for (int y = 0; y < r->height; y++)
     for (int x = 0; x < r->width; x++)
       {
         PixelWay row = along_row (r, x, y), column = along_column (r, x, y);
 
         if (belong_together (r, row, (PixelWay[]) { column, along_column (r, x + 1, y) }))
-          join (r->label, row.pixel, row.pixel + row.next);
+          celd_join (r->label, (uint32_t) row.pixel, (uint32_t) (row.pixel + row.next));
         if (belong_together (r, column, (PixelWay[]) { row, along_row (r, x, y + 1) }))
-          join (r->label, column.pixel, column.pixel + column.next);
+          celd_join (r->label, (uint32_t) column.pixel, (uint32_t) (column.pixel + column.next));
       }
 }
 
@@ -146,7 +126,7 @@ number_pieces (CeldScribbleLayer *r)
   size_t n = 0;
 
   for (size_t p = 0; p < r->pixels; p++)
-    r->label[p] = root_of (r->label, (uint32_t) p);
+    r->label[p] = celd_root (r->label, (uint32_t) p);
   for (size_t p = 0; p < r->pixels; p++) /* a root comes before all others of its piece */
     r->label[p] = r->label[p] == p ? (uint32_t) n++ : r->label[r->label[p]];
   return n;

@@ -30,7 +30,7 @@ typedef struct
 {
   const CeldPlane  *ink;
   const CeldBasins *basins;
-  PixelView              view;
+  PixelView         view;
   CeldPinch        *pinch;
   size_t            n, capacity;
 } PinchSearch;
