@@ -10,7 +10,8 @@ KINDS = ['clean', *VARIANTS, *MADE]
 
 # A few of every kind that are quickly made, for `tests/run` and `tests/same --quick`.
 QUICK = ['bee', 'campfire', 'folders', 'monkey', 'people', 'bee-gappy', 'monkey-wide', 'house-crop',
-         'caterpillar-pencil', 'armadillo-sloppy', 'frog-sloppy', 'people-sloppy', 'lemonade-pixel', 'house-pixel']
+         'caterpillar-pencil', 'armadillo-sloppy', 'frog-sloppy', 'people-sloppy', 'bee-pixel',
+         'house-pixel', 'lemonade-pixel', 'palette-pixel']
 
 
 def cases_in(folder, kinds):
