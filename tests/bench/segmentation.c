@@ -102,7 +102,7 @@ coloured_page (const Case *c)
     {
       const uint8_t *fill = c->truth.data + 4 * i;
 
-      for (int k = 0; k < 3; k++)
+      for (size_t k = 0; k < 3; k++)
         art.data[4 * i + k] = (uint8_t) ((fill[3] ? fill[k] : 255) * c->drawing.luma.data[i] + 0.5f);
       art.data[4 * i + 3] = 255;
     }
