@@ -25,7 +25,7 @@ static const CeldSettingInfo handles_row = {
 
 static const CeldProperty properties[] = {
   { .own = &result_row }, { .own = &handles_row },
-  { .name = "ink" }, { .name = "arrow-style" }, { .name = "cell-size" },
+  { .name = "ink" }, { .name = "arrow-style" }, { .name = "hold-gaps" }, { .name = "cell-size" },
   { .name = "more" },
   { .name = "relations", .rare = TRUE }, { .name = "arrow-path", .rare = TRUE }, { .name = "on-cycle", .rare = TRUE },
   { .name = "suggest", .rare = TRUE }, { .name = "ink-threshold", .rare = TRUE }, { .name = "hardness", .rare = TRUE },

@@ -114,7 +114,7 @@ deform_step (const CeldHost *host, Results *r)
     }
   status = celd_layers_of_levels (&ink, &levels, NULL, NULL, &colours, CELD_STORE_FLOAT, &scene_settings, &first, &layers);
   if (status == CELD_OK)
-    status = celd_puppet_new (layers, &ink, 1, NULL, &scene_settings, &second, &puppet);
+    status = celd_puppet_new (layers, &ink, NULL, 1, NULL, &scene_settings, &second, &puppet);
   if (status == CELD_OK)
     status = celd_handles_parse ("10,10 -> 20,12; 30,30 ^1", &handles, NULL);
   if (status == CELD_OK)

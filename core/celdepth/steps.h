@@ -462,12 +462,13 @@ CELD_API CeldStatus celd_handles_read (const CeldPaint *paint, CeldArrowStyle st
                                        CeldHandles *handles, CeldProblems *problems);
 
 /* Makes a puppet of completed layers at rest: a square lattice for each, joined to others where depth is continuous,
- * that is, where levels are equal or no ink of the drawing lies between them; with any cracks of celd_cracks_find
- * (`cracks` may be NULL) wherever layers touch except there.  The layer of label `background` (0: none) does not move.
- * Of the settings cell_size and ink_threshold count.  The puppet has copies of its input. */
-CELD_API CeldStatus celd_puppet_new (const CeldLayers *layers, const CeldPlane *ink, uint32_t background,
-                                     const CeldCracks *cracks, const CeldSettings *settings, const CeldHost *host,
-                                     CeldPuppet **puppet);
+ * that is, where levels are equal or no ink of the drawing lies between them, nor with settings->hold_gaps a gap in a
+ * contour, unless `borders` (may be NULL) has ink there and `ink` has not; with any cracks of celd_cracks_find (`cracks`
+ * may be NULL) wherever layers touch except there.  The layer of label `background` (0: none) does not move.  Of the
+ * settings cell_size, ink_threshold and hold_gaps count.  The puppet has copies of its input. */
+CELD_API CeldStatus celd_puppet_new (const CeldLayers *layers, const CeldPlane *ink, const CeldPlane *borders,
+                                     uint32_t background, const CeldCracks *cracks, const CeldSettings *settings,
+                                     const CeldHost *host, CeldPuppet **puppet);
 /* A puppet of levels, expanded or not, each of which becomes a completed layer of `art`; the farthest does not move if
  * it has most of the frame.  celd_puppet_draw then writes levels as numbers of that picture. */
 CELD_API CeldStatus celd_puppet_of_levels (const CeldPlane *ink, const CeldPlane *levels, const CeldColours *art,

@@ -52,7 +52,7 @@ make_puppets (CeldInbetween *between, const CeldKey key[2], const CeldSettings *
       CeldHost     one = celd_host_part (&part, host, 0.5 * s, 0.5 * (s + 1));
       size_t       n;
 
-      status = celd_puppet_new (key[s].layers, key[s].ink, key[s].background, NULL, settings, &one,
+      status = celd_puppet_new (key[s].layers, key[s].ink, NULL, key[s].background, NULL, settings, &one,
                                 &between->key[s]);
       if (status != CELD_OK)
         break;

@@ -1,8 +1,9 @@
 /* The lattice of a puppet.
  *
  * Each layer, what is hidden of it included, is embedded into squares by itself.  Layers have common vertices where
- * depth is continuous: where they touch, and their levels are equal or no ink lies between them; or if the artist has
- * marked cracks, wherever they touch except there.  What is connected so is a piece; pieces touch along cracks.
+ * depth is continuous: where they touch, and their levels are equal or neither ink nor a gap that holds depth lies
+ * between them; or if the artist has marked cracks, wherever they touch except there.  What is connected so is a piece;
+ * pieces touch along cracks.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -16,7 +17,8 @@ typedef struct
 {
   CeldPuppet       *puppet;
   const CeldCracks *cracks;    /* may be NULL */
-  CeldDepthEdges    edges;
+  CeldDepthEdges    edges;     /* of the levels in front */
+  uint8_t          *cut;       /* of the edges */
   uint32_t         *joined;    /* disjoint sets of vertices */
 } LayerEmbedding;
 
@@ -189,6 +191,24 @@ embed_layers (CeldPuppet *puppet, const CeldPlane *ink, const CeldSettings *sett
 
 /* ------------------------------------------------------------------ where layers touch */
 
+/* Finds where ink and gaps cut the levels in front. */
+static CeldStatus
+find_edges (LayerEmbedding *e, const CeldPlane *ink, const CeldPlane *borders, const CeldSettings *settings,
+            const CeldHost *host)
+{
+  const CeldPuppet *puppet = e->puppet;
+  size_t            n = (size_t) puppet->width * (size_t) puppet->height;
+  float            *level = celd_alloc (n, sizeof *level);
+  CeldStatus        status = CELD_NO_MEMORY;
+
+  for (size_t p = 0; p < n && level; p++)
+    level[p] = (float) puppet->layer[puppet->front[p]].level;
+  if (level)
+    status = celd_depth_edges (ink, borders, level, celd_stroke_width (ink), settings, host, &e->edges, &e->cut);
+  celd_free (level);
+  return status;
+}
+
 void
 celd_puppet_contacts (const CeldPuppet *puppet, CeldContactVisit visit, void *data)
 {
@@ -295,19 +315,20 @@ join_layers (LayerEmbedding *e)
 }
 
 CeldStatus
-celd_puppet_embed (CeldPuppet *puppet, const CeldPlane *ink, const CeldCracks *cracks, const CeldSettings *settings,
-                   const CeldHost *host)
+celd_puppet_embed (CeldPuppet *puppet, const CeldPlane *ink, const CeldPlane *borders, const CeldCracks *cracks,
+                   const CeldSettings *settings, const CeldHost *host)
 {
   CeldLattice   *lattice = &puppet->lattice;
   LayerEmbedding e = { .puppet = puppet, .cracks = cracks };
-  CeldStatus     status;
+  CeldStatus     status = embed_layers (puppet, ink, settings, host);
 
-  e.edges = (CeldDepthEdges) { ink, settings->ink_threshold, celd_edge_radius (celd_stroke_width (ink)), NULL };
-  status  = embed_layers (puppet, ink, settings, host);
+  if (status == CELD_OK)
+    status = find_edges (&e, ink, borders, settings, host);
   if (status == CELD_OK)
     status = join_layers (&e);
   if (status == CELD_OK)
     memcpy (lattice->place, lattice->rest, 2 * lattice->n_vertices * sizeof *lattice->rest);
+  celd_free (e.cut);
   celd_free (e.joined);
   return status;
 }

@@ -39,7 +39,7 @@ celd_puppet_of_levels (const CeldPlane *ink, const CeldPlane *levels, const Celd
   if (status == CELD_OK)
     status = celd_level_layers_cut (&made, ink, art, CELD_STORE_FLOAT, &whole, &second, &layers);
   if (status == CELD_OK)
-    status = celd_puppet_new (layers, ink, background, NULL, settings, &third, &puppet);
+    status = celd_puppet_new (layers, ink, NULL, background, NULL, settings, &third, &puppet);
   if (status == CELD_OK)
     status = note_values (&made, puppet);
   celd_layers_free (layers);

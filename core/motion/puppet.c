@@ -168,8 +168,8 @@ draw_base (CeldPuppet *puppet)
 /* ------------------------------------------------------------------ the puppet */
 
 CeldStatus
-celd_puppet_new (const CeldLayers *layers, const CeldPlane *ink, uint32_t background, const CeldCracks *cracks,
-                 const CeldSettings *settings, const CeldHost *host, CeldPuppet **result)
+celd_puppet_new (const CeldLayers *layers, const CeldPlane *ink, const CeldPlane *borders, uint32_t background,
+                 const CeldCracks *cracks, const CeldSettings *settings, const CeldHost *host, CeldPuppet **result)
 {
   size_t       pixels = (size_t) layers->width * (size_t) layers->height;
   CeldSettings own = *settings;
@@ -178,7 +178,7 @@ celd_puppet_new (const CeldLayers *layers, const CeldPlane *ink, uint32_t backgr
   CeldPuppet  *puppet;
   CeldStatus   status;
 
-  if (!CELD_SAME_SIZE (ink, ink) || ink->width != layers->width || ink->height != layers->height)
+  if (!CELD_SAME_SIZE (ink, borders ? borders : ink) || ink->width != layers->width || ink->height != layers->height)
     return CELD_BAD_SIZE;
   if (celd_settings_check (settings) != CELD_OK)
     return CELD_BAD_VALUE;
@@ -197,7 +197,7 @@ celd_puppet_new (const CeldLayers *layers, const CeldPlane *ink, uint32_t backgr
   if (status == CELD_OK)
     status = celd_puppet_measure_lines (puppet, ink, &quiet);
   if (status == CELD_OK)
-    status = celd_puppet_embed (puppet, ink, cracks, &own, &quiet);
+    status = celd_puppet_embed (puppet, ink, borders, cracks, &own, &quiet);
   if (status == CELD_OK)
     status = celd_puppet_tie (puppet);
   if (status == CELD_OK)

@@ -106,10 +106,10 @@ CeldStatus celd_puppet_continue_lines (CeldPuppet *puppet, const CeldPlane *ink)
 CeldStatus celd_puppet_layer_lattice (const CeldPuppetLayer *layer, CeldRect window, const CeldPlane *ink,
                                       const CeldSettings *settings, const CeldHost *host, CeldLattice **lattice);
 
-/* Makes the lattice of a puppet whose layers have their pictures, and the cells of their pixels.  `cracks` as in
- * celd_puppet_new. */
-CeldStatus celd_puppet_embed (CeldPuppet *puppet, const CeldPlane *ink, const CeldCracks *cracks,
-                              const CeldSettings *settings, const CeldHost *host);
+/* Makes the lattice of a puppet whose layers have their pictures, and the cells of their pixels.  `borders` and `cracks`
+ * are as for celd_puppet_new. */
+CeldStatus celd_puppet_embed (CeldPuppet *puppet, const CeldPlane *ink, const CeldPlane *borders,
+                              const CeldCracks *cracks, const CeldSettings *settings, const CeldHost *host);
 
 /* Calls `visit` for each pair of neighbouring pixels whose front layers differ and move, with the cells in front; (x,y)
  * is the left or upper pixel, `right` is 1 for its right neighbour, 0 for its lower one. */

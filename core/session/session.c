@@ -231,7 +231,9 @@ celd_session_puppet (CeldSession *s, const CeldColours *art, const CeldHost *hos
   CeldHost     cutting = celd_host_part (&part[0], host, 0, 0.6), making = celd_host_part (&part[1], host, 0.6, 1);
   CeldLayers  *layers = NULL;
   CeldCracks   cracks = { 0 };
+  CeldPlane    drawn = { 0 };
   uint32_t     background = 0;
+  const CeldPlane *borders = NULL;
   CeldStatus   status = cut_layers (s, art, CELD_STORE_FLOAT, true, &cutting, &layers);
 
   for (uint32_t k = 0; k < s->palette.n && status == CELD_OK; k++)
@@ -241,7 +243,11 @@ celd_session_puppet (CeldSession *s, const CeldColours *art, const CeldHost *hos
     status = celd_cracks_find (celd_session_current_labels (s), &s->palette, celd_session_relations (s),
                                celd_session_depth_ink (s), &cracks);
   if (status == CELD_OK)
-    status = celd_puppet_new (layers, celd_session_split_ink (s), background, &cracks, &s->settings, &making, puppet);
+    status = celd_session_borders (s, &drawn, &borders);
+  if (status == CELD_OK)
+    status = celd_puppet_new (layers, celd_session_split_ink (s), borders, background, &cracks, &s->settings, &making,
+                              puppet);
+  celd_free (drawn.data);
   celd_cracks_clear (&cracks);
   celd_layers_free (layers);
   return status;

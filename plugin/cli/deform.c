@@ -270,7 +270,7 @@ const CliCommand cli_deform_command = {
               "      --handles '120,80 -> 200,60; 300,400' --output moved.png\n"
               "  celdepth deform page.psd --handles-layer handles.png --output moved.ora\n"
               "  celdepth deform page.psd --keys handles.json --frames 24 --output wave.gif",
-  .settings = CLI_SETTINGS_OF_LABELS " on-cycle suggest expansion margin cell-size",
+  .settings = CLI_SETTINGS_OF_LABELS " on-cycle suggest expansion margin hold-gaps cell-size",
   .output   = "output",
   .check    = check,
   .run      = run_deform,

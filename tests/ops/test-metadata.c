@@ -36,8 +36,8 @@ static const struct { const char *name; const char *pads; const char *properties
     "result flats ink arrow-style background background-colour more relations arrow-path on-cycle ink-threshold "
     "hardness close-gaps keep-necks method expansion encoding near-level far-level tolerance" },
   { "celdepth:arap-deform", "aux5 aux4 aux3 aux2 aux input",
-    "result handles ink arrow-style cell-size more relations arrow-path on-cycle suggest ink-threshold hardness "
-    "close-gaps keep-necks flats background background-colour seeds same-colour method expansion margin encoding "
+    "result handles ink arrow-style hold-gaps cell-size more relations arrow-path on-cycle suggest ink-threshold "
+    "hardness close-gaps keep-necks flats background background-colour seeds same-colour method expansion margin encoding "
     "near-level far-level" },
   { "celdepth:compose", "aux3 aux2 aux input", "result between x y scale turn flip ink" },
   { "celdepth:popup", "aux4 aux3 aux2 aux input",

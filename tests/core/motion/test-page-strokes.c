@@ -61,7 +61,7 @@ puppet_with (LayerScene *s, const LayerShare *stroke)
   CeldPuppet  *puppet = NULL;
   CeldLayers  *layers = layers_with (s, stroke);
 
-  CHECK (celd_puppet_new (layers, &s->ink, 1, NULL, &settings, NULL, &puppet) == CELD_OK);
+  CHECK (celd_puppet_new (layers, &s->ink, NULL, 1, NULL, &settings, NULL, &puppet) == CELD_OK);
   celd_layers_free (layers);
   return puppet;
 }
@@ -185,7 +185,7 @@ a_line_goes_on_below_a_nearer_line (void)
   layer_scene_paint (&s, 2, BLACK, mouth, all);
   layer_scene_paint (&s, 3, BLUE, visor, visor_line);
   layers = layer_scene_cut (&s, 3, CELD_STORE_FLOAT, true);
-  CHECK (celd_puppet_new (layers, &s.ink, 1, NULL, &settings, NULL, &puppet) == CELD_OK);
+  CHECK (celd_puppet_new (layers, &s.ink, NULL, 1, NULL, &settings, NULL, &puppet) == CELD_OK);
   celd_layers_free (layers);
   at_rest (puppet, &s);
   CHECK (celd_puppet_pose (puppet, handle, 4, NULL, NULL) == CELD_OK);

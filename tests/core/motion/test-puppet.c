@@ -40,7 +40,7 @@ puppet_of (const LayerScene *s, size_t n)
   CeldSettings settings = celd_settings ();
   CeldPuppet  *puppet = NULL;
 
-  CHECK (celd_puppet_new (layers, &s->ink, 1, NULL, &settings, NULL, &puppet) == CELD_OK);
+  CHECK (celd_puppet_new (layers, &s->ink, NULL, 1, NULL, &settings, NULL, &puppet) == CELD_OK);
   celd_layers_free (layers);
   return puppet;
 }
@@ -470,6 +470,7 @@ poses_are_reported_with_places (void)
 
 static double badge (double x, double y) { return box_share (x, y, 60, 120, 100, 160); }
 static double badge_line (double x, double y) { return frame_share (x, y, 60, 120, 100, 160); }
+static double broken_line (double x, double y) { return fabs (x - 80) < 6 ? 0 : badge_line (x, y); }
 
 /* A badge on a body, with a line around it: it tears off unless cracks are marked elsewhere only. */
 static void
@@ -493,13 +494,45 @@ marked_cracks_are_the_only_ones (void)
 
       memcpy (marked, crack, sizeof marked);
       cracks.item += ways[way].first;
-      CHECK (celd_puppet_new (layers, &s.ink, 1, &cracks, &settings, NULL, &puppet) == CELD_OK);
+      CHECK (celd_puppet_new (layers, &s.ink, NULL, 1, &cracks, &settings, NULL, &puppet) == CELD_OK);
       CHECK ((puppet->lattice.piece[celd_puppet_front_cell (puppet, 80, 80) - 1] !=
               puppet->lattice.piece[celd_puppet_front_cell (puppet, 80, 140) - 1]) == ways[way].torn);
       celd_puppet_free (puppet);
     }
   celd_layers_free (layers);
   layer_scene_close (&s);
+}
+
+/* A badge whose line has two gaps of four stroke widths tears off where gaps hold depth, unless a contour for
+ * segmentation only goes over them. */
+static void
+gaps_tear (void)
+{
+  static const struct { bool hold, bordered, torn; } ways[] = { { true, false, true }, { false, false, false },
+                                                                { true, true, false } };
+  LayerScene  s = layer_scene (SIDE, SIDE), whole = layer_scene (SIDE, SIDE);
+  CeldLayers *layers;
+
+  layer_scene_paint (&s, 2, RED, body, body_line);
+  layer_scene_paint (&whole, 2, RED, body, body_line);
+  layer_scene_paint (&s, 3, BLUE, badge, broken_line);
+  layer_scene_paint (&whole, 3, BLUE, badge, badge_line);
+  layers = layer_scene_cut (&s, 3, CELD_STORE_FLOAT, true);
+  for (size_t way = 0; way < 3; way++)
+    {
+      CeldSettings settings = celd_settings ();
+      CeldPuppet  *puppet = NULL;
+
+      settings.hold_gaps = ways[way].hold;
+      CHECK (celd_puppet_new (layers, &s.ink, ways[way].bordered ? &whole.ink : NULL, 1, NULL, &settings, NULL,
+                              &puppet) == CELD_OK);
+      CHECK ((puppet->lattice.piece[celd_puppet_front_cell (puppet, 80, 80) - 1] !=
+              puppet->lattice.piece[celd_puppet_front_cell (puppet, 80, 140) - 1]) == ways[way].torn);
+      celd_puppet_free (puppet);
+    }
+  celd_layers_free (layers);
+  layer_scene_close (&s);
+  layer_scene_close (&whole);
 }
 
 /* Levels of a picture come back as they are, and go on in their last step where handles move parts beyond them. */
@@ -537,9 +570,9 @@ wrong_sizes_are_refused (void)
   CeldPlane    small = { SIDE - 1, SIDE, SIDE, s.ink.data };
   CeldColours  cut = { SIDE - 1, SIDE, SIDE, canvas_data };
 
-  CHECK (celd_puppet_new (layers, &small, 1, NULL, &settings, NULL, &none) == CELD_BAD_SIZE);
+  CHECK (celd_puppet_new (layers, &small, NULL, 1, NULL, &settings, NULL, &none) == CELD_BAD_SIZE);
   settings.cell_size = -1;
-  CHECK (celd_puppet_new (layers, &s.ink, 1, NULL, &settings, NULL, &none) == CELD_BAD_VALUE && !none);
+  CHECK (celd_puppet_new (layers, &s.ink, NULL, 1, NULL, &settings, NULL, &none) == CELD_BAD_VALUE && !none);
   CHECK (celd_puppet_draw (puppet, NULL, &cut, NULL) == CELD_BAD_SIZE);
   CHECK (celd_puppet_draw_layer (puppet, 9, NULL, &canvas) == CELD_BAD_VALUE);
   celd_layers_free (layers);
@@ -564,6 +597,7 @@ main (void)
   RUN (a_pose_has_layers);
   RUN (poses_are_reported_with_places);
   RUN (marked_cracks_are_the_only_ones);
+  RUN (gaps_tear);
   RUN (levels_are_those_of_the_picture);
   RUN (wrong_sizes_are_refused);
   return DONE;
