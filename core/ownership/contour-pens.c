@@ -3,8 +3,8 @@
  * Of two regions with ink between them, the nearer one drew it.  Ink that is thicker than this region's pen
  * (pen-width.c) contains other lines, too.  Then the line next to the paper has the owner of the nearest point along
  * the edge whose owner is certain, up to a corner; or, round the corner, an owner between both labels in depth, or the
- * paper's own label if a nearer region lies on its outline and the rest of the thickness fits its pen; else the nearer
- * label.
+ * paper's own label if a nearer region lies on its outline and the rest of the thickness fits its pen, or a line inside
+ * the paper's label touches that region's outline; else the nearer label.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -14,6 +14,7 @@
 
 #define PLAIN_THICKNESS     1.04f /* ratio to the pen's width above which ink contains other lines; chosen */
 #define THICKNESS_TOLERANCE 0.5f  /* pixels by which thickness may be off; chosen */
+#define MAX_SLANT           1.5f  /* pen widths that a normal may run through a line at a slant; chosen */
 #define TIP_WIDTHS          6.f   /* pen widths that the two sides of an outline run on to their common tip; chosen */
 
 static uint32_t
@@ -112,30 +113,78 @@ accepts_owner_round_corner (const CeldContourPens *pens, const CeldEdgePoint *p,
          pens->level[label - 1] > pens->level[pen->near - 1];
 }
 
-/* Points without an owner take that of the nearest point along the edge that has one: up to a corner, or with
- * `round` also round corners.  `distance` has the distance to that point, 0 or INFINITY at the beginning. */
+/* From where owners spread along an edge: from where they are certain, up to a corner or also round corners; or from a
+ * line inside a region, both of whose sides are that region's, to where it touches an outline. */
+typedef enum { UP_TO_CORNERS, ROUND_CORNERS, FROM_INSIDE } OwnerSpread;
+
+/* Is the ink no thicker than that line and the outline of the front label beside it, across both or at a slant? */
+static bool
+fits_both (const CeldContourPens *pens, const CeldEdgePoint *p, const CeldEdgePen *line, const CeldEdgePen *pen)
+{
+  float    width = line->near == line->far ? 2 * line->width : line->width;
+  uint32_t front = celd_pen_front (pens, pen);
+
+  return front && p->thickness <= MAX_SLANT * pens->typical_width[front - 1] + width + THICKNESS_TOLERANCE;
+}
+
+/* Does point b take the owner of its neighbour a, `distance` from the point that a has it from? */
+static bool
+takes_owner (const CeldContourPens *pens, const CeldEdgeLoop *loop, size_t a, size_t b, OwnerSpread spread,
+             float distance)
+{
+  const CeldEdgePoint *point = &pens->edges->point[loop->first];
+  const CeldEdgePen   *pen = &pens->pen[loop->first];
+
+  if (spread == ROUND_CORNERS)
+    return accepts_owner_round_corner (pens, &point[b], &pen[b], pen[a].owner);
+  if (point[a].corner)
+    return false;
+  return spread == FROM_INSIDE ? pen[a].owner == pen[b].near && fits_both (pens, &point[b], &pen[a], &pen[b])
+                               : accepts_owner (pens, &point[b], &pen[b], &pen[a], distance);
+}
+
+/* Points without an owner take that of the nearest point along the edge that has one.  `distance` gets the distance to
+ * that point. */
 static void
-propagate_owners (const CeldEdgeLoop *loop, CeldContourPens *pens, bool round, float *distance)
+spread_owners (const CeldEdgeLoop *loop, CeldContourPens *pens, OwnerSpread spread, float *distance)
 {
   const CeldEdgePoint *point = &pens->edges->point[loop->first];
   CeldEdgePen         *pen = &pens->pen[loop->first];
   size_t               n = loop->n;
 
+  for (size_t i = 0; i < n; i++)
+    distance[i] = pen[i].owner ? 0 : INFINITY;
   for (int backwards = 0; backwards < 2; backwards++)
     for (size_t i = 1; i < 2 * n; i++)
       {
         size_t a = (backwards ? 2 * n - i : i - 1) % n, b = (backwards ? 2 * n - i - 1 : i) % n;
         float  total = distance[a] + point[backwards ? b : a].step;
 
-        if (pen[a].owner && total < distance[b] &&
-            (round ? accepts_owner_round_corner (pens, &point[b], &pen[b], pen[a].owner)
-                   : !point[a].corner && accepts_owner (pens, &point[b], &pen[b], &pen[a], total)))
+        if (pen[a].owner && total < distance[b] && takes_owner (pens, loop, a, b, spread, total))
           {
-            distance[b]       = total;
+            distance[b]  = total;
             pen[b].owner = pen[a].owner;
-            pen[b].width = pen[a].width;
+            pen[b].width = spread == FROM_INSIDE && pen[a].near == pen[a].far ? 2 * pen[a].width : pen[a].width;
           }
       }
+}
+
+/* Gives lines inside regions that have a pen to these, where nothing else is known; whether other points are left. */
+static bool
+own_lines_inside (const CeldEdgeLoop *loop, CeldContourPens *pens)
+{
+  CeldEdgePen *pen = &pens->pen[loop->first];
+  bool         left = false;
+
+  for (size_t i = 0; i < loop->n; i++)
+    if (!pen[i].owner && pen[i].near)
+      {
+        if (pen[i].near == pen[i].far && pens->typical_width[pen[i].near - 1] > 0)
+          pen[i].owner = pen[i].near;
+        else
+          left = true;
+      }
+  return left;
 }
 
 /* The owner of a point that nothing along the edge tells about. */
@@ -157,18 +206,14 @@ find_loop_owners (const CeldEdgeLoop *loop, CeldContourPens *pens, float *distan
   size_t               unknown = 0;
 
   for (size_t i = 0; i < loop->n; i++)
-    {
-      pen[i].owner = local_owner (pens, &point[i], &pen[i]);
-      distance[i]       = pen[i].owner ? 0 : INFINITY;
-    }
-  propagate_owners (loop, pens, false, distance);
+    pen[i].owner = local_owner (pens, &point[i], &pen[i]);
+  spread_owners (loop, pens, UP_TO_CORNERS, distance);
   for (size_t i = 0; i < loop->n; i++)
-    {
-      unknown += !pen[i].owner;
-      distance[i]   = pen[i].owner ? 0 : INFINITY;
-    }
+    unknown += !pen[i].owner;
   if (unknown)
-    propagate_owners (loop, pens, true, distance);
+    spread_owners (loop, pens, ROUND_CORNERS, distance);
+  if (unknown && own_lines_inside (loop, pens))
+    spread_owners (loop, pens, FROM_INSIDE, distance);
   for (size_t i = 0; i < loop->n; i++)
     if (!pen[i].owner)
       assume_owner (pens, &point[i], &pen[i]);

@@ -203,6 +203,45 @@ ink_within_a_region_is_its_own (void)
   expect (rows, wanted, CELD_EXPANSION_THICKNESS);
 }
 
+/* A head, 2, on a page, 1, with an eye whose ring touches the outline of the hair, 3, or lies on a part of it: pens are
+ * 8 wide, `covered` of them at most.  The ring is the head's, and the outline goes on straight beside it, but for a few
+ * pixels where they part. */
+static void
+a_line_inside_keeps_its_ink_beside_an_outline (void)
+{
+  const uint32_t level[3] = { 0, 1, 2 };
+
+  for (int covered = 0; covered <= 3; covered++)
+    {
+      CeldPlane     ink;
+      CeldLabels    labels;
+      CeldOwnership own;
+      double        eye = 72 + 20 - covered; /* the line of the hair is 64 .. 72 */
+      int           wrong = 0;
+
+      CHECK (celd_plane_new (180, 160, &ink) == CELD_OK && celd_labels_new (180, 160, &labels) == CELD_OK);
+      CHECK (celd_ownership_new (180, 160, &own) == CELD_OK);
+      for (int y = 0; y < 160; y++)
+        for (int x = 0; x < 180; x++)
+          {
+            double ring = hypot (x + 0.5 - eye, y + 0.5 - 80);
+            bool   head = x >= 20 && x < 160 && y >= 20 && y < 140;
+            bool   line = x < 28 || x >= 152 || y < 28 || y >= 132 || (x >= 64 && x < 72) || (ring >= 12 && ring < 20);
+
+            CELD_AT (&ink, x, y)    = !(head && line);
+            CELD_AT (&labels, x, y) = !head ? 1 : x < 68 ? 3 : 2;
+          }
+      CHECK (celd_own (&ink, &labels, level, 3, NULL, CELD_EXPANSION_OUTLINES, NULL, &own) == CELD_OK);
+      for (int y = 40; y < 120; y++)
+        for (int x = 28; x < 150; x++)
+          wrong += CELD_AT (&own.owner, x, y) != (x < 72 ? 3 : 2);
+      CHECK (wrong <= 8);
+      celd_ownership_clear (&own);
+      celd_free (ink.data);
+      celd_free (labels.data);
+    }
+}
+
 /* A label without paper keeps its ink. */
 static void
 a_black_patch_keeps_its_ink (void)
@@ -400,6 +439,7 @@ main (void)
   RUN (side_by_side_each_has_its_line);
   RUN (a_contour_is_the_nearer_regions);
   RUN (ink_within_a_region_is_its_own);
+  RUN (a_line_inside_keeps_its_ink_beside_an_outline);
   RUN (a_black_patch_keeps_its_ink);
   RUN (antialiased_pixels_have_two_labels);
   RUN (corrections_reassign_a_piece_of_line);
