@@ -133,6 +133,15 @@ check_canvas (int64_t width, int64_t height)
                      " pixels; width and height must be from 1 to " + std::to_string (CELD_MAX_SIDE) + ".");
 }
 
+// OpenImageIO has the merged picture as part 0, then the layers.
+static void
+name_layers (DecodedFile &file, const std::vector<std::string> &names)
+{
+  for (size_t i = 0; i < names.size () && names.size () + 1 == file.parts.size (); i++)
+    if (!names[i].empty ())
+      file.parts[i + 1].name = names[i];
+}
+
 static std::unique_ptr<PictureFile>
 open_decoded (const std::string &path)
 {
@@ -161,6 +170,8 @@ open_decoded (const std::string &path)
     }
   for (const ImageSpec &spec : file->specs)
     file->parts.push_back (describe (spec, file->width, file->height, file->input->format_name ()));
+  if (iequals (file->input->format_name (), "psd"))
+    name_layers (*file, psd_layer_names (path));
   return file;
 }
 

@@ -1,6 +1,7 @@
 // Pictures in files, decoded in the reading process.
 //
 //   read-file.cpp     what OpenImageIO decodes
+//   psd-names.cpp     names of layers in a PSD
 //   read-layered.cpp  OpenRaster and Krita documents: a zip of layers
 //
 // SPDX-License-Identifier: LGPL-3.0-or-later
@@ -58,6 +59,10 @@ std::unique_ptr<PictureFile> open_picture (const std::string &path);
 // Opens a PNG whose bytes the stream has, which must outlive the file.  The canvas is a rectangle in its coordinates.
 // Throws an IoFailure if the bytes are no PNG.
 std::unique_ptr<PictureFile> open_png (OIIO::Filesystem::IOProxy &stream, const CeldRect &canvas);
+
+// The names of a PSD's layers in Unicode, from the lowest layer to the highest, "" where one has none; empty if the file
+// is damaged.
+std::vector<std::string> psd_layer_names (const std::string &path);
 
 // Throws if a canvas cannot have that size.
 void check_canvas (int64_t width, int64_t height);

@@ -7,7 +7,11 @@
 
 #include <glib.h>
 
-#include "pipeline.h"
+typedef enum
+{
+  CELD_LAYER_DRAWING, CELD_LAYER_SCRIBBLES, CELD_LAYER_ARROWS, CELD_LAYER_CONTOURS, CELD_LAYER_CORRECTIONS,
+  CELD_LAYER_HIDDEN, CELD_N_LAYERS
+} CeldLayerRole;
 
 /* The role of a layer of this name, in English, German or Czech, in any case, with or without accents, spaces at the
  * ends, and the ending of a file; CELD_N_LAYERS: it is none. */

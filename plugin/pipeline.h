@@ -15,12 +15,7 @@
 #include <gegl.h>
 
 #include "celdepth.h"
-
-typedef enum
-{
-  CELD_LAYER_DRAWING, CELD_LAYER_SCRIBBLES, CELD_LAYER_ARROWS, CELD_LAYER_CONTOURS, CELD_LAYER_CORRECTIONS,
-  CELD_LAYER_HIDDEN, CELD_N_LAYERS
-} CeldLayerRole;
+#include "layer-names.h"
 
 typedef enum
 {

@@ -18,7 +18,7 @@ has_layer (const char *path, const char *role)
 {
   CeldIoError error;
   CeldIoFile *file = celd_io_open (path, &error);
-  bool        found = file && celd_io_find (file, role) != CELD_NO_INDEX;
+  bool        found = file && cli_find_part (file, role) != CELD_NO_INDEX;
 
   celd_io_close (file);
   return found;

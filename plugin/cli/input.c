@@ -7,6 +7,8 @@
 
 #include <string.h>
 
+#include "layer-names.h"
+
 static const struct { CliRoles role; const char *name; } roles[] = {
   { CLI_DRAWING, "drawing" }, { CLI_SCRIBBLES, "scribbles" }, { CLI_ARROWS, "arrows" }, { CLI_CONTOURS, "contours" },
   { CLI_CORRECTIONS, "corrections" }, { CLI_HIDDEN, "hidden" },
@@ -44,17 +46,29 @@ check_size (const CeldIoFile *file, const char *path, CliLayers *layers)
   return check_sides (celd_io_width (file), celd_io_height (file), path, layers);
 }
 
+size_t
+cli_find_part (const CeldIoFile *file, const char *name)
+{
+  size_t              part = celd_io_find (file, name);
+  const CeldLayerRole role = celd_layer_role_of_name (name);
+
+  for (size_t i = 0; part == CELD_NO_INDEX && role < CELD_N_LAYERS && i < celd_io_parts (file); i++)
+    if (celd_layer_role_of_name (celd_io_part (file, i)->name) == role)
+      part = i;
+  return part;
+}
+
 /* The part with the drawing: the one of that name, or the first if no part has the name of a layer; otherwise
  * CELD_NO_INDEX, with a message. */
 static size_t
 find_drawing (const CeldIoFile *file, const char *path)
 {
-  size_t   part = celd_io_find (file, "drawing");
+  size_t   part = cli_find_part (file, "drawing");
   bool     layered = false;
   GString *names;
 
   for (size_t i = 0; i < G_N_ELEMENTS (roles); i++)
-    layered = layered || celd_io_find (file, roles[i].name) != CELD_NO_INDEX;
+    layered = layered || cli_find_part (file, roles[i].name) != CELD_NO_INDEX;
   if (part != CELD_NO_INDEX || !layered)
     return part == CELD_NO_INDEX ? 0 : part;
   names = g_string_new (NULL);
@@ -70,7 +84,7 @@ bool
 cli_layer_read (const char *path, const char *role, CliLayers *layers, CeldPaint *paint)
 {
   CeldIoFile *file = open_file (path);
-  size_t      part = file ? celd_io_find (file, role) : 0;
+  size_t      part = file ? cli_find_part (file, role) : 0;
   bool        good = file && check_size (file, path, layers) &&
                      cli_read_paint (file, part == CELD_NO_INDEX ? 0 : part, paint);
 
@@ -88,7 +102,7 @@ bool
 cli_art_read (const char *input, const char *path, bool linear, CliLayers *layers, CeldColours *art)
 {
   CeldIoFile *file = open_file (path ? path : input);
-  size_t      part = !file ? 0 : path ? celd_io_find (file, "colours") : find_drawing (file, input);
+  size_t      part = !file ? 0 : path ? cli_find_part (file, "colours") : find_drawing (file, input);
   bool        good = file && check_size (file, path ? path : input, layers) &&
                      cli_read_part (file, part == CELD_NO_INDEX ? 0 : part, linear, art);
 
@@ -127,7 +141,7 @@ read_input (const char *path, const CliOptions *options, CliRoles wanted, CliLay
   for (size_t i = 1; good && i < G_N_ELEMENTS (roles); i++)
     if (wanted & roles[i].role && !path_of (options, roles[i].role))
       {
-        size_t part = celd_io_find (file, roles[i].name);
+        size_t part = cli_find_part (file, roles[i].name);
 
         if (part == CELD_NO_INDEX && roles[i].role == CLI_SCRIBBLES && options->settings.flats)
           part = drawing;

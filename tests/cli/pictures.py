@@ -103,6 +103,19 @@ def png_chunks(path):
     return names, struct.unpack('>IIBBBBB', header)
 
 
+def name_in_psd(name):
+    """Padded Latin 1, with "?" for other letters, as Krita has it; of a name with accents also the Unicode."""
+    short = name.encode('latin-1', 'replace')
+    label = bytes([len(short)]) + short
+    label += bytes(-len(label) % 4)
+    if name.isascii():
+        return label
+    units = name.encode('utf-16-be')
+    units = struct.pack('>I', len(units) // 2) + units
+    units += bytes(-len(units) % 4)
+    return label + b'8BIMluni' + struct.pack('>I', len(units)) + units
+
+
 def write_psd(path, size, layers):
     """A layered PSD: layers are (name, left, top, RGBA picture), the lowest first."""
     records, pixels = b'', b''
@@ -112,9 +125,7 @@ def write_psd(path, size, layers):
         for number, plane in zip((-1, 0, 1, 2), planes):
             records += struct.pack('>hI', number, len(plane) + 2)
             pixels += struct.pack('>H', 0) + plane
-        label = bytes([len(name)]) + name.encode()
-        label += bytes(-len(label) % 4)
-        extra = struct.pack('>II', 0, 0) + label
+        extra = struct.pack('>II', 0, 0) + name_in_psd(name)
         records += b'8BIMnorm' + bytes([255, 0, 0, 0]) + struct.pack('>I', len(extra)) + extra
     info = struct.pack('>h', len(layers)) + records + pixels
     info += bytes(len(info) % 2)

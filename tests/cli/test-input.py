@@ -43,6 +43,38 @@ class Layers(Test):
         self.popup('--relations', RELATIONS, '--depth', 'b.npy')
         np.testing.assert_allclose(np.load(self.path('a.npy')), np.load(self.path('b.npy')), atol=1e-5)
 
+    def test_names_in_other_languages(self):
+        """Layers are known by the names that editors' plug-ins know, as PSD files have them and as OpenRaster has."""
+        for names in (('Zeichnung', 'KRITZELEIEN'), ('Kresba', 'Čmáranice'), ('drawing.png', 'Tahy')):
+            stack, entries = '', {}
+            page = [(name, *layer[1:]) for name, layer in zip(names, layers())]
+            for name, x, y, picture in page:
+                data = io.BytesIO()
+                picture.save(data, 'PNG')
+                entries[f'data/{len(entries)}.png'] = data.getvalue()
+                stack = f'<layer name="{name}" x="{x}" y="{y}" src="{list(entries)[-1]}"/>' + stack
+            write_psd(self.path('page.psd'), (WIDTH, HEIGHT), page)
+            write_ora(self.path('page.ora'), (WIDTH, HEIGHT), f'<stack>{stack}</stack>', entries)
+            for file in ('page.psd', 'page.ora'):
+                self.same_labels(file)
+
+    def test_arrows_in_other_languages(self):
+        arrow = Image.new('RGBA', (WIDTH, HEIGHT))
+        ImageDraw.Draw(arrow).line([(70, 50), (24, 30)], fill=RED, width=2)
+        ImageDraw.Draw(arrow).line([(31, 27), (24, 30), (29, 37)], fill=RED, width=2)
+        for i, name in enumerate(('Arrows', 'Pfeile', 'Šipky')):
+            write_psd(self.path('page.psd'), (WIDTH, HEIGHT), [*layers(), (name, 0, 0, arrow)])
+            self.celdepth('popup', 'page.psd', '--levels', f'{i}.npy')
+            levels = np.load(self.path(f'{i}.npy'))
+            self.assertGreater(at(levels, IN_B), at(levels, IN_A), name)
+
+    def test_name_of_two_languages(self):
+        """The English name comes first, whatever the order of the layers is."""
+        other = ('Kritzeleien', 0, 0, Image.new('RGBA', (5, 5), RED))
+        for page in ([layers()[0], other, layers()[1]], [layers()[0], layers()[1], other]):
+            write_psd(self.path('page.psd'), (WIDTH, HEIGHT), page)
+            self.same_labels('page.psd')
+
     def test_option_before_layer(self):
         other = ('scribbles', 0, 0, Image.new('RGBA', (5, 5), RED))
         write_psd(self.path('page.psd'), (WIDTH, HEIGHT), [layers()[0], other])

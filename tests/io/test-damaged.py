@@ -41,7 +41,7 @@ def good_files(folder):
     strokes, box = scribbles(), scribbles().getbbox()
     page = drawing().convert('RGBA').crop((4, 4, WIDTH, HEIGHT))
     write_psd(path('layers.psd'), (WIDTH, HEIGHT),
-              [('drawing', 4, 4, page), ('scribbles', box[0], box[1], strokes.crop(box))])
+              [('drawing', 4, 4, page), ('Čmáranice', box[0], box[1], strokes.crop(box))])
     strokes.save(path('plain.png'))
     strokes.quantize(8).save(path('palette.png'))
     drawing().convert('RGB').save(path('plain.jpg'))
