@@ -25,7 +25,6 @@
 #define FAINTEST_LINE 20     /* of 255: least contrast of the core of a line; chosen */
 #define COMPRESSED    8      /* pixels: a block of JPEG */
 #define EDGE          2      /* pixels from the core of a line to its antialiased edge */
-#define FLAT_RUN      32     /* pixels that are looked at together; chosen */
 #define TONES         16     /* per channel, by which the colours of lines are counted; chosen */
 
 typedef struct
@@ -165,7 +164,7 @@ take_luma (const uint8_t *restrict red, const uint8_t *restrict green, const uin
 }
 
 /* Finds whether lines are darker or lighter than what is beside them: those of a drawing have one width.  If they are
- * lighter, inverts the channels.  l->level is overwritten. */
+ * lighter, inverts the channels.  Sets l->level to the luma, inverted as well. */
 static CeldStatus
 find_polarity (Lines *l, int *radius)
 {
@@ -181,8 +180,13 @@ find_polarity (Lines *l, int *radius)
     return status;
   celd_invert_bytes (&l->level);
   status = celd_line_radius (&l->level, l->broadest, &second, l->work, &l->closed, &other, &light);
-  if (status != CELD_OK || light <= dark)
+  if (status != CELD_OK)
     return status;
+  if (light <= dark)
+    {
+      celd_invert_bytes (&l->level);
+      return status;
+    }
   for (int c = 0; c < 3; c++)
     celd_invert_bytes (&l->channel[c]);
   *radius = other;
@@ -190,32 +194,6 @@ find_polarity (Lines *l, int *radius)
 }
 
 /* ------------------------------------------------------------------ contrast */
-
-CELD_CLONES static void
-raise_contrast_of_piece (const uint8_t *restrict value, const uint8_t *restrict closed, size_t n,
-                         uint8_t *restrict contrast)
-{
-  for (size_t i = 0; i < n; i++)
-    {
-      float   paper = celd_most (closed[i], CELD_DARKEST_FILL);
-      uint8_t c = (uint8_t) (255 * (float) (closed[i] - value[i]) / paper + 0.5f);
-
-      contrast[i] = c > contrast[i] ? c : contrast[i];
-    }
-}
-
-/* Raises contrasts to those of a channel against its closing. */
-static void
-raise_contrast (const uint8_t *value, const uint8_t *closed, size_t n, uint8_t *contrast)
-{
-  for (size_t i = 0; i < n; i += FLAT_RUN)
-    {
-      size_t piece = n - i < FLAT_RUN ? n - i : FLAT_RUN;
-
-      if (memcmp (value + i, closed + i, piece)) /* most pieces are fill */
-        raise_contrast_of_piece (value + i, closed + i, piece, contrast + i);
-    }
-}
 
 /* Sets l->contrast for lines up to 2 radius + 1 wide. */
 static CeldStatus
@@ -227,7 +205,7 @@ measure_contrast (Lines *l, int radius)
   for (int c = 0; c < 3 && status == CELD_OK; c++)
     {
       celd_close_bytes (&l->channel[c], radius, l->work, &l->closed);
-      raise_contrast (l->channel[c].data, l->closed.data, pixels (l), l->contrast.data);
+      celd_raise_contrast (l->channel[c].data, l->closed.data, pixels (l), l->contrast.data);
       status = celd_progress (l->host, 0.6 + 0.2 * (c + 1) / 3);
     }
   return status;
@@ -256,32 +234,20 @@ find_faintest (Lines *l, int *faintest)
   return CELD_OK;
 }
 
-/* Takes what lies narrow between lines out of the contrast. */
+/* Takes what lies narrow between lines out of the contrast.  l->level holds the luma, and is overwritten. */
 static CeldStatus
 clear_narrow_fills (Lines *l, int radius, int faintest)
 {
-  CeldMask luma;
+  CeldMask fill;
 
-  if (!new_mask (l->closed.width, l->closed.height, &luma))
+  if (!new_mask (l->closed.width, l->closed.height, &fill))
     return CELD_NO_MEMORY;
-  take_luma (l->channel[0].data, l->channel[1].data, l->channel[2].data, pixels (l), luma.data);
-  celd_clear_narrow_fills (&luma, radius, faintest, l->work, &l->closed, &l->level, &l->contrast);
-  celd_free (luma.data);
+  celd_clear_narrow_fills (&l->level, radius, faintest, l->work, &l->closed, &fill, &l->contrast);
+  celd_free (fill.data);
   return CELD_OK;
 }
 
 /* ------------------------------------------------------------------ strength */
-
-/* Whether one of the bytes is as large as this. */
-CELD_CLONES static bool
-any_reaches (const uint8_t *value, int n, int least)
-{
-  int most = 0;
-
-  for (int i = 0; i < n; i++)
-    most = value[i] > most ? value[i] : most;
-  return most >= least;
-}
 
 static uint32_t *
 tone_of (Lines *l, size_t pixel)
@@ -316,11 +282,11 @@ find_cores (Lines *l, int radius, int faintest)
   celd_dilate_bytes (&l->closed, radius, l->work);
   memset (l->level.data, 0, pixels (l));
   for (int y = 0; y < l->level.height; y++)
-    for (int left = 0; left < l->level.width; left += FLAT_RUN)
+    for (int left = 0; left < l->level.width; left += CELD_PIECE)
       {
-        int right = left + FLAT_RUN < l->level.width ? left + FLAT_RUN : l->level.width;
+        int right = left + CELD_PIECE < l->level.width ? left + CELD_PIECE : l->level.width;
 
-        if (any_reaches (&CELD_AT (&l->contrast, left, y), right - left, faintest)) /* few do */
+        if (celd_any_byte_reaches (&CELD_AT (&l->contrast, left, y), (size_t) (right - left), faintest)) /* few do */
           for (int x = left; x < right; x++)
             if (is_core (l, x, y, faintest))
               {
@@ -336,7 +302,11 @@ CELD_CLONES static void
 keep_where_level (const uint8_t *restrict level, const uint8_t *restrict value, size_t n, uint8_t *restrict raised)
 {
   for (size_t i = 0; i < n; i++)
-    raised[i] = level[i] ? raised[i] : value[i];
+    {
+      uint8_t keep = level[i] ? 255 : 0;
+
+      raised[i] = (uint8_t) ((raised[i] & keep) | (value[i] & ~keep));
+    }
 }
 
 /* Between fills that differ, closing finds the darker one.  For antialiased pixels on the lighter side, which may be
@@ -348,8 +318,15 @@ raise_edges (Lines *l)
     {
       memcpy (l->closed.data, l->channel[c].data, pixels (l));
       celd_dilate_bytes (&l->closed, 1, l->work);
-      keep_where_level (l->level.data, l->channel[c].data, pixels (l), l->closed.data);
-      raise_contrast (l->channel[c].data, l->closed.data, pixels (l), l->contrast.data);
+      for (size_t i = 0, n; i < pixels (l); i += n)
+        {
+          n = pixels (l) - i < CELD_PIECE ? pixels (l) - i : CELD_PIECE;
+          if (celd_any_byte_reaches (l->level.data + i, n, 1)) /* few do */
+            {
+              keep_where_level (l->level.data + i, l->channel[c].data + i, n, l->closed.data + i);
+              celd_raise_contrast (l->channel[c].data + i, l->closed.data + i, n, l->contrast.data + i);
+            }
+        }
     }
   celd_dilate_bytes (&l->level, EDGE - 1, l->work);
 }
@@ -372,20 +349,6 @@ blur_tones (Lines *l)
         }
 }
 
-/* Replaces the level of each pixel by the strength of the line there.  Where there is no core, pale contrast is what
- * narrow fills leave along their ends, not a pale line. */
-CELD_CLONES static void
-find_strengths (const uint8_t *restrict contrast, int faintest, size_t n, uint8_t *restrict level)
-{
-  int least = faintest > 128 ? faintest : 128;
-
-  for (size_t i = 0; i < n; i++)
-    if (level[i])
-      level[i] = (uint8_t) celd_least (255.0f * contrast[i] / level[i], 255);
-    else
-      level[i] = contrast[i] < least ? 0 : contrast[i];
-}
-
 CELD_CLONES static void
 write_strengths (const uint8_t *restrict strength, int n, float *restrict luma)
 {
@@ -399,7 +362,7 @@ write_thick (Lines *l, int x, int y, int n, float *luma)
 {
   size_t first = (size_t) y * l->contrast.stride + (size_t) x;
 
-  if (any_reaches (l->contrast.data + first, n, 1))
+  if (celd_any_byte_reaches (l->contrast.data + first, (size_t) n, 1))
     for (int i = 0; i < n; i++)
       if (l->contrast.data[first + (size_t) i] && 100 * (size_t) *tone_of (l, first + (size_t) i) >= l->cores)
         luma[i] = 0;
@@ -414,8 +377,8 @@ write_lines (Lines *l, CeldDrawing *drawing)
   for (int y = 0; y < drawing->luma.height; y++)
     {
       write_strengths (&CELD_AT (&l->level, 0, y), width, &CELD_AT (&drawing->luma, 0, y));
-      for (int x = 0; x < width; x += FLAT_RUN)
-        write_thick (l, x, y, width - x < FLAT_RUN ? width - x : FLAT_RUN, &CELD_AT (&drawing->luma, x, y));
+      for (int x = 0; x < width; x += CELD_PIECE)
+        write_thick (l, x, y, width - x < CELD_PIECE ? width - x : CELD_PIECE, &CELD_AT (&drawing->luma, x, y));
       if (drawing->alpha.data)
         for (int x = 0; x < width; x++)
           CELD_AT (&drawing->alpha, x, y) = 1;
@@ -443,7 +406,7 @@ find_lines (Lines *l, CeldDrawing *drawing)
   find_cores (l, radius, faintest);
   blur_tones (l);
   raise_edges (l);
-  find_strengths (l->contrast.data, faintest, pixels (l), l->level.data);
+  celd_line_strengths (l->contrast.data, faintest, pixels (l), l->level.data);
   status = celd_thick_lines (l->channel, radius > l->widest / 2 ? 2 * radius : l->widest, faintest, &last, l->work,
                              &l->closed, &l->contrast);
   if (status == CELD_OK)

@@ -11,6 +11,8 @@
 
 #define CELD_RUN 256 /* pixels of a row that are looked at together; chosen */
 
+#define CELD_PIECE 32 /* pixels that are passed over together where there are no lines, as in most places; chosen */
+
 /* ------------------------------------------------------------------ paper.c: the kind of drawing, and its values */
 
 /* The mode to use for a drawing: never CELD_INK_AUTO, and CELD_INK_ALPHA only if the drawing has transparency. */
@@ -25,6 +27,10 @@ void celd_ink_values (const CeldDrawing *drawing, CeldInkMode mode, CeldPlane *v
 
 /* paper-levels.c: the brightness of the paper around each pixel, > 0; `paper` has the size of `value`. */
 CeldStatus celd_paper_levels (const CeldPlane *value, CeldPlane *paper);
+
+/* paper-levels.c: replaces each value by its contrast against that paper, 1 - value / paper or 0 where it is lighter.
+ * After a failure the values are as they were. */
+CeldStatus celd_paper_contrast (CeldPlane *value);
 
 /* ------------------------------------------------------------------ ink-noise.c */
 
@@ -60,6 +66,12 @@ float celd_ink_echo (const CeldPlane *contrast, const CeldMask *around, float da
 
 /* One pass of the binomial filter (1 2 1)/4 in both directions, in place; `spare`, of the same size, is overwritten. */
 void celd_ink_smooth (CeldPlane *plane, CeldPlane *spare);
+
+/* ------------------------------------------------------------------ ink-levels.c */
+
+/* Whether a grey pixel of a clean drawing shows how dark its stroke is: inside a grey stroke, or on a line thinner than
+ * a pixel.  `dark` is the contrast of dark strokes. */
+bool celd_ink_shows_level (const CeldPlane *contrast, int x, int y, float dark);
 
 /* ------------------------------------------------------------------ ink-lines.c */
 
@@ -143,6 +155,16 @@ void celd_close_bytes  (const CeldMask *mask, int radius, void *work, CeldMask *
 void celd_invert_bytes (CeldMask *mask);
 
 /* ------------------------------------------------------------------ coloured drawings */
+
+/* line-contrast.c: whether one of n bytes is as large as this. */
+bool celd_any_byte_reaches (const uint8_t *value, size_t n, int least);
+
+/* line-contrast.c: raises contrasts, 0 .. 255, to those of values against their closing, as far as it is larger. */
+void celd_raise_contrast (const uint8_t *value, const uint8_t *closed, size_t n, uint8_t *contrast);
+
+/* line-contrast.c: replaces the contrast of the core of the line at each pixel by the strength of the line there, 0 ..
+ * 255.  Where there is no core (0), pale contrast is what narrow fills leave along their ends, not a pale line. */
+void celd_line_strengths (const uint8_t *contrast, int faintest, size_t n, uint8_t *level);
 
 #define CELD_DARKEST_FILL 64  /* of 255: contrast against anything darker is against this; chosen */
 #define CELD_MIDDLE_FILL  128 /* of 255: of a fill that is lighter than lines, which grain hides more; chosen */

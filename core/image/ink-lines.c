@@ -119,14 +119,30 @@ mean_of_taps (const CeldPlane *plane, int x, int y, const Taps *taps)
 {
   float sum = 0;
 
-  if (x > TAP_REACH && y > TAP_REACH && x < plane->width - TAP_REACH - 1 && y < plane->height - TAP_REACH - 1)
-    for (int k = 0; k < taps->n; k++)
-      sum += taps->weight[k] * CELD_AT (plane, x + taps->x[k], y + taps->y[k]);
-  else
-    for (int k = 0; k < taps->n; k++)
-      sum += taps->weight[k] *
-             CELD_AT (plane, inside (x + taps->x[k], plane->width), inside (y + taps->y[k], plane->height));
+  for (int k = 0; k < taps->n; k++)
+    sum += taps->weight[k] *
+           CELD_AT (plane, inside (x + taps->x[k], plane->width), inside (y + taps->y[k], plane->height));
   return sum;
+}
+
+/* Sets mean[] to the means of the pixels of cell (i,j), row by row. */
+static void
+means_of_cell (const CeldPlane *plane, int i, int j, const Taps *taps, float mean[CELL * CELL])
+{
+  int  x = CELL * i, y = CELL * j;
+  bool far_inside = x > TAP_REACH && y > TAP_REACH && x < plane->width - TAP_REACH - CELL &&
+                    y < plane->height - TAP_REACH - CELL;
+
+  for (int p = 0; p < CELL * CELL; p++)
+    mean[p] = far_inside ? 0 : mean_of_taps (plane, x + p % CELL, y + p / CELL, taps);
+  if (far_inside)
+    for (int k = 0; k < taps->n; k++)
+      {
+        const float *tap = &CELD_AT (plane, x + taps->x[k], y + taps->y[k]);
+
+        for (int p = 0; p < CELL * CELL; p++)
+          mean[p] += taps->weight[k] * tap[(size_t) (p % CELL) + (size_t) (p / CELL) * plane->stride];
+      }
 }
 
 /* Where a value lies between two others: 0 up to `low`, 1 from `high` on. */
@@ -141,8 +157,7 @@ static void
 smooth_cell (const CeldPlane *contrast, const Tensors *t, int i, int j, float least, CeldPlane *smooth)
 {
   float xx = CELD_AT (&t->xx, i, j), xy = CELD_AT (&t->xy, i, j), yy = CELD_AT (&t->yy, i, j);
-  float change = xx + yy, clear, one_way, line;
-  Taps  taps;
+  float change = xx + yy, clear, one_way, line, mean[CELL * CELL] = { 0 };
 
   if (change <= least)
     return;
@@ -152,8 +167,9 @@ smooth_cell (const CeldPlane *contrast, const Tensors *t, int i, int j, float le
   if (line > 0)
     {
       float dx = sqrtf (0.5f * celd_most (1 - (xx - yy) / one_way, 0)); /* at right angles to the change */
+      Taps  taps = taps_along (dx, copysignf (sqrtf (celd_most (1 - dx * dx, 0)), -xy));
 
-      taps = taps_along (dx, copysignf (sqrtf (celd_most (1 - dx * dx, 0)), -xy));
+      means_of_cell (contrast, i, j, &taps, mean);
     }
   for (int y = CELL * j; y < CELL * (j + 1) && y < smooth->height; y++)
     for (int x = CELL * i; x < CELL * (i + 1) && x < smooth->width; x++)
@@ -161,7 +177,7 @@ smooth_cell (const CeldPlane *contrast, const Tensors *t, int i, int j, float le
         float *s = &CELD_AT (smooth, x, y), value = celd_most (CELD_AT (contrast, x, y), *s);
 
         if (line > 0)
-          value += line * (mean_of_taps (contrast, x, y, &taps) - value);
+          value += line * (mean[x % CELL + CELL * (y % CELL)] - value);
         *s += clear * (value - *s);
       }
 }

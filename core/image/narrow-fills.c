@@ -16,13 +16,31 @@
 
 /* From what is darker than its closing in the inverted picture to its contrast in the picture itself, 0 .. 255. */
 CELD_CLONES static void
-measure_lightness (const uint8_t *restrict inverted, size_t n, uint8_t *restrict closed)
+measure_lightness_of_piece (const uint8_t *restrict inverted, size_t n, uint8_t *restrict closed)
 {
+  uint8_t value[CELD_PIECE]; /* apart, because compilers make no vectors of it otherwise */
+
+  for (size_t i = 0; i < n; i++)
+    value[i] = inverted[i] < 255 - CELD_MIDDLE_FILL ? (uint8_t) ~inverted[i] : CELD_MIDDLE_FILL;
   for (size_t i = 0; i < n; i++)
     {
-      float value = celd_most (255.0f - inverted[i], CELD_MIDDLE_FILL);
+      int light = (int) (255.0f * (float) (closed[i] - inverted[i]) / (float) value[i] + 0.5f);
 
-      closed[i] = (uint8_t) celd_least (255.0f * (float) (closed[i] - inverted[i]) / value + 0.5f, 255);
+      closed[i] = (uint8_t) (light < 255 ? light : 255);
+    }
+}
+
+static void
+measure_lightness (const uint8_t *inverted, size_t n, uint8_t *closed)
+{
+  for (size_t i = 0; i < n; i += CELD_PIECE)
+    {
+      size_t piece = n - i < CELD_PIECE ? n - i : CELD_PIECE;
+
+      if (memcmp (inverted + i, closed + i, piece)) /* few differ */
+        measure_lightness_of_piece (inverted + i, piece, closed + i);
+      else
+        memset (closed + i, 0, piece);
     }
 }
 

@@ -1,7 +1,8 @@
 /* How light the paper of a drawing is.
  *
  * The paper level is a high quantile in each tile; tiles without paper (solid ink) are filled in from their neighbours;
- * between tiles it is interpolated bilinearly.  White paper has a level of exactly 1.  Cost: O(pixels).
+ * between tiles it is interpolated bilinearly.  White paper has a level of exactly 1.  Cost: O(pixels); no memory but
+ * for the tiles and the values of one.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -12,9 +13,16 @@
 
 #define DARKEST  1e-3f         /* least paper level, because values are divided by it; chosen */
 #define ABREAST  8             /* sums that are formed side by side; chosen */
-#define EDGE_BIN CELD_INK_BINS /* of values beside which there is an edge */
 
-typedef struct { int side, width, height; float *level, *spare; } Tiles;
+enum { WHITE_BIN = CELD_INK_BINS - 1, EDGE_BIN /* of values beside which there is an edge */ };
+
+typedef struct
+{
+  int       side;          /* in pixels */
+  int       width, height; /* in tiles */
+  float    *level, *spare;
+  uint16_t *bin;           /* of the values of a tile */
+} Tiles;
 
 /* The bins of values that differ little from the one to the left of them, EDGE_BIN for others. */
 CELD_CLONES static void
@@ -44,35 +52,48 @@ sum_of_bin (const float *value, const uint16_t *bin, int n, uint16_t which)
   return (sum[0] + sum[1]) + (sum[2] + sum[3]) + ((sum[4] + sum[5]) + (sum[6] + sum[7]));
 }
 
-/* A piece of a row of a tile, with the bins of its values. */
-typedef struct { int n; const float *value; uint16_t bin[CELD_RUN]; } TileRun;
-
-static void
-take_tile_run (const CeldPlane *value, int x, int y, int end, TileRun *piece)
+/* Whether n values are white. */
+CELD_CLONES static bool
+all_white (const float *value, int n)
 {
-  piece->n = end - x < CELD_RUN ? end - x : CELD_RUN;
-  piece->value = &CELD_AT (value, x, y);
-  find_flat_bins (piece->value, piece->value - (x > 0), 1, piece->bin);
-  find_flat_bins (piece->value + 1, piece->value, piece->n - 1, piece->bin + 1);
+  int others = 0;
+
+  for (int x = 0; x < n; x++)
+    others |= value[x] != 1;
+  return !others;
+}
+
+/* Finds the bins of a row of a tile, n values from (x,y) on, and counts them. */
+static void
+count_row (const CeldPlane *value, int x, int y, int n, uint16_t *bin, unsigned of[CELD_INK_BANKS][EDGE_BIN + 1])
+{
+  const float *v = &CELD_AT (value, x, y);
+  int          before = x > 0;
+
+  if (all_white (v - before, n + before)) /* many are */
+    {
+      for (int i = 0; i < n; i++)
+        bin[i] = WHITE_BIN;
+      of[0][WHITE_BIN] += (unsigned) n;
+      return;
+    }
+  find_flat_bins (v, v - before, 1, bin);
+  find_flat_bins (v + 1, v, n - 1, bin + 1);
+  for (int i = 0; i < n; i++)
+    of[i % CELD_INK_BANKS][bin[i]]++;
 }
 
 /* The most frequent value among the lightest fifth of a tile's pixels, without edges; 0 if there are only edges. */
 static float
-upper_value (const CeldPlane *value, int left, int top, int side)
+upper_value (const Tiles *t, const CeldPlane *value, int left, int top)
 {
   unsigned of[CELD_INK_BANKS][EDGE_BIN + 1] = { { 0 } }, all = 0, above = 0;
-  int      right = left + side < value->width ? left + side : value->width, bin = CELD_INK_BINS - 1, fullest;
-  int      bottom = top + side < value->height ? top + side : value->height;
+  int      width = left + t->side < value->width ? t->side : value->width - left, bin = WHITE_BIN, fullest;
+  int      height = top + t->side < value->height ? t->side : value->height - top;
   double   sum = 0;
-  TileRun    piece;
 
-  for (int y = top; y < bottom; y++)
-    for (int x = left; x < right; x += piece.n)
-      {
-        take_tile_run (value, x, y, right, &piece);
-        for (int i = 0; i < piece.n; i++)
-          of[i % CELD_INK_BANKS][piece.bin[i]]++;
-      }
+  for (int y = 0; y < height; y++)
+    count_row (value, left, top + y, width, t->bin + y * width, of);
   for (int i = 0; i < CELD_INK_BINS; i++)
     {
       for (int k = 1; k < CELD_INK_BANKS; k++)
@@ -86,12 +107,10 @@ upper_value (const CeldPlane *value, int left, int top, int side)
       fullest = bin;
   if (of[0][bin] > of[0][fullest])
     fullest = bin;
-  for (int y = top; y < bottom; y++)
-    for (int x = left; x < right; x += piece.n)
-      {
-        take_tile_run (value, x, y, right, &piece);
-        sum += (double) sum_of_bin (piece.value, piece.bin, piece.n, (uint16_t) fullest);
-      }
+  for (int y = 0; y < height; y++)
+    for (int x = 0; x < width; x += CELD_RUN)
+      sum += (double) sum_of_bin (&CELD_AT (value, left + x, top + y), t->bin + y * width + x,
+                                  width - x < CELD_RUN ? width - x : CELD_RUN, (uint16_t) fullest);
   return (float) (sum / of[0][fullest]);
 }
 
@@ -205,62 +224,99 @@ tile_before (int pixel, int side, int n, float *share)
   return tile;
 }
 
-/* Interpolates bilinearly between the middles of tiles; the levels of one row of pixels are kept in t->spare. */
+/* The levels of row y of the picture, interpolated bilinearly between the middles of tiles; t->spare is overwritten. */
 static void
-interpolate_tiles (const Tiles *t, CeldPlane *paper)
+interpolate_row (const Tiles *t, int y, int width, float *row)
 {
-  float inverse = 1 / (float) t->side;
+  float        v, inverse = 1 / (float) t->side, *level = t->spare;
+  const float *l = t->level + tile_before (y, t->side, t->height, &v) * t->width;
+  const float *below = t->height > 1 ? l + t->width : l;
 
-  for (int y = 0; y < paper->height; y++)
+  for (int i = 0; i < t->width; i++)
+    level[i] = l[i] + v * (below[i] - l[i]);
+  for (int i = 0, x = 0; x < width; i++)
     {
-      float        v;
-      const float *l = t->level + tile_before (y, t->side, t->height, &v) * t->width;
-      const float *below = t->height > 1 ? l + t->width : l;
-      float       *level = t->spare, *row = &CELD_AT (paper, 0, y);
+      bool  last = i >= t->width - 2;
+      int   end = last ? width : (2 * i + 3) * t->side / 2;
+      float rise = t->width > 1 ? (level[i + 1] - level[i]) * inverse : 0;
+      float middle = ((float) i + 0.5f) * (float) t->side - 0.5f;
 
-      for (int i = 0; i < t->width; i++)
-        level[i] = l[i] + v * (below[i] - l[i]);
-      for (int i = 0, x = 0; x < paper->width; i++)
+      for (; x < end; x++)
         {
-          bool  last = i >= t->width - 2;
-          int   end = last ? paper->width : (2 * i + 3) * t->side / 2;
-          float rise = t->width > 1 ? (level[i + 1] - level[i]) * inverse : 0;
-          float middle = ((float) i + 0.5f) * (float) t->side - 0.5f;
+          float value = level[i] + ((float) x - middle) * rise;
 
-          for (; x < end; x++)
-            {
-              float value = level[i] + ((float) x - middle) * rise;
-
-              row[x] = value > DARKEST ? value : DARKEST;
-            }
+          row[x] = value > DARKEST ? value : DARKEST;
         }
     }
+}
+
+/* Fills in *t; the caller calls tiles_clear also after a failure. */
+static CeldStatus
+measure_tiles (const CeldPlane *value, Tiles *t)
+{
+  int    smaller = value->width < value->height ? value->width : value->height;
+  size_t n;
+
+  *t = (Tiles) { .side = smaller / 24 < 16 ? 16 : smaller / 24 };
+  t->width = (value->width + t->side - 1) / t->side;
+  t->height = (value->height + t->side - 1) / t->side;
+  n = (size_t) t->width * (size_t) t->height;
+  t->level = celd_alloc (n, sizeof *t->level);
+  t->spare = celd_alloc (n, sizeof *t->spare);
+  t->bin = celd_alloc ((size_t) t->side * (size_t) t->side, sizeof *t->bin);
+  if (!t->level || !t->spare || !t->bin)
+    return CELD_NO_MEMORY;
+  for (int y = 0; y < t->height; y++)
+    for (int x = 0; x < t->width; x++)
+      t->level[y * t->width + x] = fmaxf (upper_value (t, value, x * t->side, y * t->side), DARKEST);
+  drop_inked_tiles (t);
+  fill_tiles (t);
+  smooth_tiles (t);
+  return CELD_OK;
+}
+
+static void
+tiles_clear (Tiles *t)
+{
+  celd_free (t->level);
+  celd_free (t->spare);
+  celd_free (t->bin);
 }
 
 CeldStatus
 celd_paper_levels (const CeldPlane *value, CeldPlane *paper)
 {
-  int        smaller = value->width < value->height ? value->width : value->height;
-  Tiles      t = { .side = smaller / 24 < 16 ? 16 : smaller / 24 };
-  CeldStatus status = CELD_NO_MEMORY;
+  Tiles      t;
+  CeldStatus status = measure_tiles (value, &t);
 
-  t.width = (value->width + t.side - 1) / t.side;
-  t.height = (value->height + t.side - 1) / t.side;
-  t.level = celd_alloc ((size_t) t.width * (size_t) t.height, sizeof *t.level);
-  t.spare = celd_alloc ((size_t) t.width * (size_t) t.height, sizeof *t.spare);
-  if (!t.level || !t.spare)
-    goto done;
-  for (int y = 0; y < t.height; y++)
-    for (int x = 0; x < t.width; x++)
-      t.level[y * t.width + x] = fmaxf (upper_value (value, x * t.side, y * t.side, t.side), DARKEST);
-  drop_inked_tiles (&t);
-  fill_tiles (&t);
-  smooth_tiles (&t);
-  interpolate_tiles (&t, paper);
-  status = CELD_OK;
+  for (int y = 0; y < paper->height && status == CELD_OK; y++)
+    interpolate_row (&t, y, paper->width, &CELD_AT (paper, 0, y));
+  tiles_clear (&t);
+  return status;
+}
 
-done:
-  celd_free (t.level);
-  celd_free (t.spare);
+CELD_CLONES static void
+compare_with_paper (const float *restrict paper, int n, float *restrict value)
+{
+  for (int x = 0; x < n; x++)
+    value[x] = celd_most (1 - value[x] / paper[x], 0);
+}
+
+CeldStatus
+celd_paper_contrast (CeldPlane *value)
+{
+  Tiles      t;
+  CeldStatus status = measure_tiles (value, &t);
+  float     *row = celd_alloc ((size_t) value->width, sizeof *row);
+
+  if (!row)
+    status = CELD_NO_MEMORY;
+  for (int y = 0; y < value->height && status == CELD_OK; y++)
+    {
+      interpolate_row (&t, y, value->width, row);
+      compare_with_paper (row, value->width, &CELD_AT (value, 0, y));
+    }
+  celd_free (row);
+  tiles_clear (&t);
   return status;
 }

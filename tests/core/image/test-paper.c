@@ -137,6 +137,22 @@ uneven_paper (void)
     NEAR (paper_of[i], 0.95 - 0.4 * (i % SIDE) / SIDE, 0.035);
 }
 
+/* Contrast is that against the levels, and nothing is lighter than paper. */
+static void
+contrast_against_paper (void)
+{
+  CeldPlane value = square (value_of), paper = square (paper_of);
+
+  for (int i = 0; i < SIDE * SIDE; i++)
+    value_of[i] = on_line (i, 3) ? 0.05f : 0.95f - 0.4f * (float) (i % SIDE) / SIDE + 0.01f * (float) (i % 3);
+  CHECK (celd_paper_levels (&value, &paper) == CELD_OK);
+  for (int i = 0; i < SIDE * SIDE; i++)
+    paper_of[i] = fmaxf (1 - value_of[i] / paper_of[i], 0);
+  CHECK (celd_paper_contrast (&value) == CELD_OK);
+  for (int i = 0; i < SIDE * SIDE; i++)
+    NEAR (value_of[i], paper_of[i], 1e-6);
+}
+
 int
 main (void)
 {
@@ -145,5 +161,6 @@ main (void)
   RUN (values);
   RUN (white_paper);
   RUN (uneven_paper);
+  RUN (contrast_against_paper);
   return DONE;
 }
