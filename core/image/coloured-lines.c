@@ -9,6 +9,7 @@
  * 4. Strength: the contrast, divided by that of the core of the line.
  * 5. Where lines meet, and where strokes are thicker than most, they are wider than the window.  There, what has the
  *    colour of lines and fits into the widest window is a line as well (thick-lines.c).
+ * 6. Where two fills meet without a line, one is drawn (fill-edges.c).
  * Large areas in the colour of lines remain fills: an artist can scribble on them.  Sprites have lines that need no
  * windows (sprite-lines.c).
  *
@@ -410,7 +411,10 @@ find_lines (Lines *l, CeldDrawing *drawing)
   status = celd_thick_lines (l->channel, radius > l->widest / 2 ? 2 * radius : l->widest, faintest, &last, l->work,
                              &l->closed, &l->contrast);
   if (status == CELD_OK)
-    write_lines (l, drawing);
+    {
+      write_lines (l, drawing);
+      celd_draw_fill_edges (l->channel, &l->level, &l->contrast, faintest, &l->closed, &drawing->luma);
+    }
   return status;
 }
 

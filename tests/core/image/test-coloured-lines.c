@@ -292,6 +292,67 @@ grain_makes_no_lines (void)
         CHECK (luma_of[y * SIDE + x] > 0.85f);
 }
 
+/* Fills with an edge between them that has no line get one there, at most three pixels wide; a steep gradient and
+ * grain do not. */
+static void
+edges_without_lines_are_drawn (void)
+{
+  uint32_t seed = 11;
+
+  for (int turn = 0; turn < 2; turn++)
+    {
+      int stray = 0;
+
+      draw (blue, yellow, pink, brown);
+      for (int y = 0; y < SIDE; y++)
+        for (int x = 0; x < SIDE; x++)
+          {
+            seed = seed * 1664525u + 1013904223u;
+            if (inside (x, y, 125, 100, 42) && x + y > 225)
+              put (x, y, turn ? (Tone) { 0.2f, 0.6f, 0.3f } : brown);
+            if (y >= 155) /* 10 of 255 a pixel, and grain */
+              put (x, y, mixed (blue, yellow, (float) (x < 60 ? 0 : x < 78 ? x - 60 : 18) / 20 + (float) (seed >> 29) / 255));
+          }
+      CHECK (find (CELD_INK_LINES, NULL) == CELD_OK);
+      for (int y = 95; y < 110; y++) /* across the edge at x = 225 - y, far from tips, which are lines */
+        {
+          int ink = 0;
+
+          for (int x = 225 - y - 8; x <= 225 - y + 8; x++)
+            ink += luma_of[y * SIDE + x] < 0.5f;
+          CHECK (ink > 0 && ink <= 3);
+          CHECK (luma_of[y * SIDE + 225 - y] < 0.5f || luma_of[y * SIDE + 226 - y] < 0.5f);
+        }
+      for (int y = 159; y < SIDE; y++)
+        for (int x = 0; x < SIDE; x++)
+          stray += luma_of[y * SIDE + x] < 0.5f;
+      CHECK (stray == 0);
+    }
+}
+
+/* The edge of a shadow, and of a highlight, is none between fills. */
+static void
+shadows_have_no_lines (void)
+{
+  for (int turn = 0; turn < 2; turn++)
+    {
+      int stray = 0;
+
+      draw (blue, yellow, pink, brown);
+      for (int y = 0; y < SIDE; y++)
+        for (int x = 0; x < SIDE; x++)
+          if (inside (x, y, 125, 100, 42) && x + y > 225)
+            put (x, y, mixed (turn ? white : (Tone) { 0, 0, 0 }, turn ? blue : pink, 0.5f));
+          else if (turn && inside (x, y, 125, 100, 42))
+            put (x, y, blue);
+      CHECK (find (CELD_INK_LINES, NULL) == CELD_OK);
+      for (int y = 95; y < 110; y++)
+        for (int x = 225 - y - 8; x <= 225 - y + 8; x++)
+          stray += luma_of[y * SIDE + x] < 0.5f;
+      CHECK (stray == 0);
+    }
+}
+
 static void
 transparent_is_white (void)
 {
@@ -365,6 +426,8 @@ main (void)
   RUN (pale_lines_stay_between_dark_ones);
   RUN (broad_lines_are_lines);
   RUN (grain_makes_no_lines);
+  RUN (edges_without_lines_are_drawn);
+  RUN (shadows_have_no_lines);
   RUN (transparent_is_white);
   RUN (line_art_stays);
   RUN (by_request);
