@@ -50,10 +50,10 @@ const CeldPicture celd_pictures_stacked[CELD_POPUP_PICTURES] = {
 
 /* Matcaps need a picture, which these dialogs do not ask for. */
 const CeldMainSetting celd_main_settings[CELD_N_MAIN_SETTINGS] = {
-  { "light-model", "Light", CELD_MODEL_MATCAP }, { "light-azimuth", "Light", 0 }, { "light-elevation", "Light", 0 },
+  { "light-model", N_ ("Light"), CELD_MODEL_MATCAP }, { "light-azimuth", "Light", 0 }, { "light-elevation", "Light", 0 },
   { "ambient", "Light", 0 }, { "specular", "Light", 0 }, { "rim-light", "Light", 0 }, { "bulge", "Light", 0 },
   { "shadow-strength", "Shadows", 0 }, { "shadow-size", "Shadows", 0 },
-  { "ink", "How layers are read", 0 }, { "close-gaps", "How layers are read", 0 },
+  { "ink", N_ ("How layers are read"), 0 }, { "close-gaps", "How layers are read", 0 },
   { "flats", "How layers are read", 0 }, { "expansion", "How layers are read", 0 },
   { "suggest", "How layers are read", 0 },
 };

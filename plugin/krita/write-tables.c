@@ -4,6 +4,7 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
+#include <glib/gi18n.h>
 #include <locale.h>
 #include <stdio.h>
 
@@ -97,7 +98,13 @@ write_setting (const CeldMainSetting *setting)
       printf ("), ");
     }
   if (row->type == CELD_SETTING_SWITCH)
-    printf ("(\"yes\", \"Yes\"), (\"no\", \"No\")");
+    {
+      printf ("(\"yes\", ");
+      write_string (N_ ("Yes"));
+      printf ("), (\"no\", ");
+      write_string (N_ ("No"));
+      printf (")");
+    }
   printf ("]),\n");
 }
 

@@ -7,6 +7,7 @@ SPDX-License-Identifier: LGPL-3.0-or-later
 import os
 import re
 import subprocess
+import sys
 import tempfile
 import unicodedata
 import unittest
@@ -59,6 +60,22 @@ class Translations(unittest.TestCase):
             statistics = run('msgfmt', '--check', '--statistics', '-o', '/dev/null', path).stderr
             self.assertRegex(statistics, r'^\d+ translated messages\.$', language)
             self.assertEqual(set(texts_of(TEMPLATE)), set(texts_of(path)), language)
+
+    @unittest.skipUnless('KRITA_TABLES' in os.environ, 'built without the plug-in for Krita')
+    def test_tables(self):
+        """All texts of the tables of Krita's plug-in are translated."""
+        folder = os.path.join(TOP, 'plugin', 'krita', 'celdepth')
+        with open(os.environ['KRITA_TABLES'], encoding='utf-8') as file:
+            source = file.read().replace('from .kinds', 'from kinds')
+        tables = {}
+        sys.path.insert(0, folder)
+        exec(source, tables)  # pylint: disable=exec-used
+        texts = [text for layer in tables['LAYERS'] for text in (layer.title, layer.help)]
+        texts += [text for picture in tables['PICTURES'] for text in (picture.label, picture.help, picture.layer)]
+        texts += [text for setting in tables['SETTINGS'] for text in (setting.heading, setting.label, setting.help)]
+        texts += [label for setting in tables['SETTINGS'] for _, label in setting.choices]
+        self.assertGreater(len(texts), 50)
+        self.assertFalse(set(texts) - set(texts_of(TEMPLATE)))
 
     def test_form(self):
         """Mnemonics, the signs at the ends, and lines are those of the original."""

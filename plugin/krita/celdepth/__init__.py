@@ -1,5 +1,6 @@
 """Cartoon Depth for Krita: a panel, and two entries of Tools > Scripts.
 
+  language.py   texts in the language of Krita
   kinds.py      rows of tables.py, which is made from the tables of all plug-ins
   layers.py     layers of a document by their names, written to files
   command.py    a run of the command celdepth
@@ -13,6 +14,7 @@ from krita import DockWidgetFactory, DockWidgetFactoryBase, Extension, Krita
 from PyQt5.QtWidgets import QDockWidget
 
 from .docker import Docker
+from .language import _
 
 DOCKER = 'celdepth'
 MENU = 'tools/scripts'
@@ -33,9 +35,9 @@ class CartoonDepth(Extension):
         """Krita calls this when it starts."""
 
     def createActions(self, window) -> None:  # pylint: disable=invalid-name
-        update = window.createAction('celdepth_update', 'Cartoon Depth: update', MENU)
+        update = window.createAction('celdepth_update', _('Cartoon Depth: update'), MENU)
         update.triggered.connect(lambda: show_docker().start())
-        layers = window.createAction('celdepth_set_up_layers', 'Cartoon Depth: set up layers', MENU)
+        layers = window.createAction('celdepth_set_up_layers', _('Cartoon Depth: set up layers'), MENU)
         layers.triggered.connect(lambda: show_docker().set_up_layers())
 
 

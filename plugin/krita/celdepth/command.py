@@ -8,6 +8,8 @@ from typing import List
 
 from PyQt5.QtCore import QObject, QProcess, QStandardPaths, QTimer, pyqtSignal
 
+from .language import _
+
 BAR = re.compile(r'([\w-]+) +\[.*\] +(\d+) %')
 KILL_AFTER = 3000  # milliseconds that a cancelled run has to end
 GOOD = (0, 3)      # 3: there are results, but relations contradict each other
@@ -18,8 +20,8 @@ def find(command: str) -> str:
     wanted = os.path.expanduser(command) or 'celdepth'
     path = QStandardPaths.findExecutable(wanted)
     if not path:
-        raise FileNotFoundError(f'The program "{wanted}" is not found. Install celdepth, or name the program under '
-                                '"Program" at the end of this panel.')
+        raise FileNotFoundError(_('The program "{program}" is not found. Install celdepth, or name the program under '
+                                  '"Program" at the end of this panel.').format(program=wanted))
     return path
 
 
@@ -65,16 +67,16 @@ class Command(QObject):
     def fail(self, error: int) -> None:
         """What is killed also finishes; what does not start does not."""
         if error == QProcess.FailedToStart:
-            self.ended.emit(False, f'The program "{self.process.program()}" cannot be started: '
-                                   f'{self.process.errorString()}.')
+            self.ended.emit(False, _('The program "{program}" cannot be started: {reason}.').format(
+                program=self.process.program(), reason=self.process.errorString()))
 
     def finish(self, code: int, status: int) -> None:
         self.read()
         text = self.output.text()
         if self.cancelled:
-            text = 'Cancelled.'
+            text = _('Cancelled.')
         elif status != QProcess.NormalExit and not text:
-            text = 'celdepth ended unexpectedly.'
+            text = _('celdepth ended unexpectedly.')
         self.ended.emit(not self.cancelled and status == QProcess.NormalExit and code in GOOD, text)
 
     def cancel(self) -> None:

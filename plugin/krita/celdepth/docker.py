@@ -13,9 +13,14 @@ from PyQt5.QtWidgets import (QCheckBox, QComboBox, QDoubleSpinBox, QFormLayout, 
 
 from . import results
 from .kinds import Setting, Value
+from .language import _
 from .popup import Choices, Popup, Problem, set_up
 from .tables import PICTURES, SETTINGS
 
+# Of the command, as it calls them.
+STEPS = {'reading': _('reading'), 'ink': _('ink'), 'labels': _('labels'), 'order': _('order'), 'levels': _('levels'),
+         'depth': _('depth'), 'normals': _('normals'), 'light': _('light'), 'shade': _('shade'),
+         'shadows': _('shadows'), 'writing': _('writing')}
 OWN_SETTINGS, PROGRAM, CHOICES = 'celdepth', 'program', 'choices'  # in Krita's configuration
 
 
@@ -30,12 +35,12 @@ class Field:
             self.make_box(QComboBox())
         else:
             self.make_number(QDoubleSpinBox())
-        self.widget.setToolTip(setting.help + '.')
+        self.widget.setToolTip(_(setting.help) + '.')
         self.widget.setObjectName(setting.name)
 
     def make_box(self, box: QComboBox) -> None:
         for value, label in self.setting.choices:
-            box.addItem(label, value)
+            box.addItem(_(label), value)
         self.widget, self.get = box, box.currentData
         self.set = lambda value: box.setCurrentIndex(max(box.findData(value), 0))
 
@@ -76,10 +81,10 @@ class Docker(DockWidget):
     # ------------------------------------------------------------------ widgets
 
     def make_buttons(self) -> QVBoxLayout:
-        self.button, self.cancel_button = QPushButton('Update'), QPushButton('Cancel')
-        self.set_up_button = QPushButton('Set up layers')
-        self.set_up_button.setToolTip('Makes layers for scribbles, contours and arrows, and locks the drawing.')
-        self.button.setToolTip('Makes the pictures that are ticked, in the group "Cartoon Depth".')
+        self.button, self.cancel_button = QPushButton(_('Update')), QPushButton(_('Cancel'))
+        self.set_up_button = QPushButton(_('Set up layers'))
+        self.set_up_button.setToolTip(_('Makes layers for scribbles, contours and arrows, and locks the drawing.'))
+        self.button.setToolTip(_('Makes the pictures that are ticked, in the group "Cartoon Depth".'))
         self.button.clicked.connect(self.start)
         self.cancel_button.clicked.connect(self.cancel)
         self.set_up_button.clicked.connect(self.set_up_layers)
@@ -98,32 +103,32 @@ class Docker(DockWidget):
         return column
 
     def make_pictures(self) -> QGroupBox:
-        box = QGroupBox('Make')
+        box = QGroupBox(_('Make'))
         grid = QGridLayout(box)
         for i, picture in enumerate(PICTURES):
-            tick = self.ticks[picture.name] = QCheckBox(picture.label.replace('_', '&'))
-            tick.setToolTip(picture.help + '.')
+            tick = self.ticks[picture.name] = QCheckBox(_(picture.label).replace('_', '&'))
+            tick.setToolTip(_(picture.help) + '.')
             tick.setObjectName(picture.name)
             grid.addWidget(tick, i // 2, i % 2)
         return box
 
     def make_settings(self, heading: str, settings: List[Setting]) -> QGroupBox:
-        box = QGroupBox(heading)
+        box = QGroupBox(_(heading))
         form = QFormLayout(box)
         form.setFieldGrowthPolicy(QFormLayout.AllNonFixedFieldsGrow)
         form.setRowWrapPolicy(QFormLayout.WrapLongRows)
         for setting in settings:
             field = self.fields[setting.name] = Field(setting)
             field.widget.setMinimumWidth(60)
-            form.addRow(setting.label, field.widget)
+            form.addRow(_(setting.label), field.widget)
         return box
 
     def make_program(self) -> QGroupBox:
-        box = QGroupBox('Program')
+        box = QGroupBox(_('Program'))
         form = QFormLayout(box)
         self.program = QLineEdit(Krita.instance().readSetting(OWN_SETTINGS, PROGRAM, ''))
         self.program.setPlaceholderText('celdepth')
-        self.program.setToolTip('Where the program celdepth is; empty: where programs are looked for.')
+        self.program.setToolTip(_('Where the program celdepth is; empty: where programs are looked for.'))
         form.addRow('celdepth', self.program)
         return box
 
@@ -190,7 +195,7 @@ class Docker(DockWidget):
 
     def show_progress(self, step: str, done: int) -> None:
         self.bar.setValue(done)
-        self.bar.setFormat(f'{step} %p %')
+        self.bar.setFormat(f'{STEPS.get(step, step)} %p %')
 
     def end(self, _good: bool, text: str) -> None:
         if self.run:

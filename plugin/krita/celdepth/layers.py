@@ -12,6 +12,7 @@ from typing import Dict, List, Optional
 from krita import Document, Node
 from PyQt5.QtGui import QImage
 
+from .language import _
 from .tables import LAYERS
 
 MODEL, PROFILE = 'RGBA', 'sRGB built-in'
@@ -82,7 +83,7 @@ def write_node(node: Node, width: int, height: int, path: str) -> None:
     else:
         image = QImage(pixels, width, height, 4 * width, QImage.Format_ARGB32)
     if not image.save(path, 'PNG', FAST):
-        raise OSError(f'Cannot write "{path}".')
+        raise OSError(_('Cannot write "{path}".').format(path=path))
 
 
 def write(document: Document, results: Optional[Node], folder: str) -> Dict[str, str]:

@@ -11,6 +11,7 @@ from PyQt5.QtCore import QObject, pyqtSignal
 
 from . import command, layers, results
 from .kinds import Value
+from .language import _
 from .tables import LAYERS, PICTURES, SETTINGS
 
 
@@ -70,13 +71,13 @@ class Popup(QObject):
     def prepare(self, folder: str) -> List[str]:
         """Writes the layers, and returns the words of the command."""
         if not self.choices.pictures:
-            raise Problem('Nothing is chosen that could be made. Tick at least one picture.')
+            raise Problem(_('Nothing is chosen that could be made. Tick at least one picture.'))
         found = layers.find(self.document, results.group_of(self.document))
         if 'drawing' not in found:
-            raise Problem('There is no layer named "Drawing", and there are several that could be it. Name it.')
+            raise Problem(_('There is no layer named "Drawing", and there are several that could be it. Name it.'))
         if not self.choices.settings['flats'] == 'yes' and not {'scribbles', 'arrows'} & set(found):
-            raise Problem('There is no layer with scribbles or arrows. Make them with "Set up layers", and scribble '
-                          'over each part in a colour of its own.')
+            raise Problem(_('There is no layer with scribbles or arrows. Make them with "Set up layers", and scribble '
+                            'over each part in a colour of its own.'))
         inputs = layers.write(self.document, results.group_of(self.document), folder)
         words = ['popup', inputs.pop('drawing'), '--progress', *self.choices.words()]
         for role, path in inputs.items():
@@ -99,9 +100,9 @@ class Popup(QObject):
     def check(self) -> None:
         """The artist went on meanwhile."""
         if not any(document == self.document for document in Krita.instance().documents()):
-            raise Problem('The document was closed meanwhile.')
+            raise Problem(_('The document was closed meanwhile.'))
         if (self.document.width(), self.document.height()) != self.size:
-            raise Problem('The size of the document changed meanwhile. Update again.')
+            raise Problem(_('The size of the document changed meanwhile. Update again.'))
 
     def end(self, good: bool, text: str) -> None:
         if self.folder:
@@ -121,10 +122,10 @@ def set_up(document: Document) -> List[Node]:
     others = layers.without_role(layers.listed(document.rootNode(), group))
     drawing = found.get('drawing') or (others[-1] if others else None)
     if not drawing:
-        raise Problem('The document has no layer with a drawing. Put the drawing on a layer of it first.')
+        raise Problem(_('The document has no layer with a drawing. Put the drawing on a layer of it first.'))
     if layers.role_of(drawing.name()) != 'drawing':
-        drawing.setName(layers.DRAWING.title)
-    titles = {layer.role: layer.title for layer in LAYERS}
+        drawing.setName(_(layers.DRAWING.title))
+    titles = {layer.role: _(layer.title) for layer in LAYERS}
     made, below = [], drawing
     for role in ('scribbles', 'contours', 'arrows'):
         if role not in found:

@@ -13,6 +13,7 @@ from PyQt5.QtCore import QByteArray
 from PyQt5.QtGui import QImage
 
 from . import layers
+from .language import _
 from .tables import GROUP_NAME, PICTURES
 
 ANNOTATION = 'celdepth'
@@ -49,7 +50,7 @@ def pixels_of(path: str, depth: str) -> QByteArray:
     """The pixels of a file, as Krita has them: blue first."""
     image = QImage(path)
     if image.isNull():
-        raise OSError(f'Cannot read "{path}".')
+        raise OSError(_('Cannot read "{path}".').format(path=path))
     if depth == 'U16':
         image = image.convertToFormat(QImage.Format_RGBA64).rgbSwapped()
     else:
@@ -104,7 +105,7 @@ class Group:
                     node.remove()
                     del self.found[picture.name]
             elif path and not node:
-                self.add(picture.name, picture.layer, path, below)
+                self.add(picture.name, _(picture.layer), path, below)
             if picture.name in self.found:
                 node = self.found[picture.name]
                 below = node if identity(node.parentNode()) == identity(self.group) else below

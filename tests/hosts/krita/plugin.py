@@ -14,7 +14,7 @@ from PIL import Image
 from PyQt5.QtCore import QByteArray, QEventLoop, QTimer
 from PyQt5.QtWidgets import QApplication
 
-from celdepth import layers, popup, results
+from celdepth import docker, layers, popup, results
 
 EXAMPLES, OUT = os.environ['CELDEPTH_EXAMPLES'], os.environ['CELDEPTH_OUT']
 PICTURES = ['enhanced', 'lit', 'shading', 'normals', 'depth', 'levels', 'regions']
@@ -24,7 +24,7 @@ LINEAR = ('sRGB-elle-V2-g10.icc', 'scRGB (linear)')
 CONVERTED = 2e-4  # colours that Krita's colour management made of linear light
 LIMIT = 120000  # milliseconds of a run
 krita = Krita.instance()
-log = open(os.path.join(OUT, 'plugin.txt'), 'w', encoding='utf-8')
+log = open(os.path.join(OUT, 'plugin.txt'), 'a', encoding='utf-8')
 
 
 def check(fact, text):
@@ -270,6 +270,31 @@ def check_names():
                        ('Verdeckt', 'hidden'), ('Scribbles copy', None), ('Drawing with shadows', None), ('', None),
                        ('.png', None)):
         check(layers.role_of(name) == role, f'the name "{name}" is {role}')
+
+
+def check_german():
+    """Krita speaks German."""
+    panel = docker.Docker()
+    texts = [panel.button.text(), panel.ticks['depth'].text(), panel.fields['flats'].widget.itemText(0)]
+    check(texts == ['Aktualisieren', '&Tiefe', 'Ja'], f'the panel in German: {texts}')
+    document = make_document('U8', ('Zeichnung', 'Kritzeleien', 'Pfeile'))
+    made = [node.name() for node in popup.set_up(document)]
+    check(made == ['Konturen'], f'set up in German: {made}')
+    good, text, _ = run(document, choose('lit', 'depth'))
+    names = [node.name() for node in reversed(by_name(document, 'Cartoon Depth').childNodes())] if good else [text]
+    check(names == ['Beleuchtete Zeichnung', 'Tiefe'], f'results in German: {names}')
+    good, text, _ = run(document, choose())
+    check(not good and text.startswith('Es ist nichts gewählt'), f'refused in German: {text}')
+    document.close()
+
+
+def german(_arguments=None):
+    try:
+        check_german()
+    except Exception:  # pylint: disable=broad-except
+        check(False, traceback.format_exc())
+    log.close()
+    os._exit(0)
 
 
 def main(_arguments=None):
