@@ -10,10 +10,11 @@
 #define GROUP    "pop-up"
 
 CeldChoices
-celd_choices (void)
+celd_choices (gint32 image)
 {
-  CeldChoices choices = { 0, celd_settings (), g_strdup ("") };
+  CeldChoices choices = { 0, celd_settings (), g_strdup (""), { 0 } };
 
+  celd_layers_find (image, choices.layer);
   for (int i = 0; i < CELD_POPUP_PICTURES; i++)
     choices.wanted |= celd_pictures[i].usual ? 1u << i : 0;
   return choices;
@@ -70,6 +71,36 @@ keep_setting (GKeyFile *file, const CeldSettingInfo *row, double value)
     }
 }
 
+/* The layers that were chosen although their names say something else: by tattoos, which stay the same in files. */
+static void
+keep_layers (GKeyFile *file, gint32 image, const gint32 layer[CELD_N_LAYERS])
+{
+  gint32 named[CELD_N_LAYERS];
+
+  celd_layers_find (image, named);
+  for (int role = 0; role < CELD_N_LAYERS; role++)
+    if (layer[role] != named[role])
+      g_key_file_set_integer (file, GROUP, celd_layer_arguments[role],
+                              layer[role] < 0 ? 0 : gimp_item_get_tattoo (layer[role]));
+    else
+      g_key_file_remove_key (file, GROUP, celd_layer_arguments[role], NULL);
+}
+
+/* A layer that is gone gives way to the name. */
+static void
+recall_layers (GKeyFile *file, gint32 image, gint32 layer[CELD_N_LAYERS])
+{
+  for (int role = 0; role < CELD_N_LAYERS; role++)
+    if (g_key_file_has_key (file, GROUP, celd_layer_arguments[role], NULL))
+      {
+        int    tattoo = g_key_file_get_integer (file, GROUP, celd_layer_arguments[role], NULL);
+        gint32 kept = tattoo > 0 ? gimp_image_get_layer_by_tattoo (image, tattoo) : -1;
+
+        if (kept >= 0 || !tattoo)
+          layer[role] = kept;
+      }
+}
+
 void
 celd_choices_remember (gint32 image, const CeldChoices *choices)
 {
@@ -87,6 +118,7 @@ celd_choices_remember (gint32 image, const CeldChoices *choices)
       keep_setting (file, row, celd_setting_get (row, &choices->settings));
     }
   g_key_file_set_string (file, GROUP, "relations", choices->relations);
+  keep_layers (file, image, choices->layer);
   text     = g_key_file_to_data (file, &length, NULL);
   parasite = gimp_parasite_new (PARASITE, GIMP_PARASITE_PERSISTENT | GIMP_PARASITE_UNDOABLE, (guint32) length + 1,
                                 text);
@@ -124,5 +156,6 @@ celd_choices_recall (gint32 image, CeldChoices *choices)
       g_free (choices->relations);
       choices->relations = relations;
     }
+  recall_layers (file, image, choices->layer);
   g_key_file_unref (file);
 }

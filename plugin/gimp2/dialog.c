@@ -9,6 +9,7 @@
 
 #define SPACE 6 /* pixels; chosen */
 #define SCALE 150
+#define NO_LAYER (-1)
 
 /* ------------------------------------------------------------------ what changes choices */
 
@@ -51,6 +52,14 @@ choice_changed (GtkWidget *combo, gpointer data)
 
   if (gimp_int_combo_box_get_active (GIMP_INT_COMBO_BOX (combo), &value))
     celd_setting_set (row_of (combo), value, &choices->settings);
+}
+
+static void
+layer_chosen (GtkWidget *combo, gpointer data)
+{
+  gint32 *layer = data;
+
+  gimp_int_combo_box_get_active (GIMP_INT_COMBO_BOX (combo), layer);
 }
 
 static void
@@ -161,28 +170,40 @@ relations_frame (CeldChoices *choices)
   return frame;
 }
 
-/* Which layers are read. */
+/* All layers of the image, for a role. */
 static GtkWidget *
-layers_frame (gint32 image)
+layer_combo (const GArray *listed, int role, CeldChoices *choices)
 {
-  GtkWidget *frame = gimp_frame_new ("Layers"), *label;
-  GString   *text = g_string_new (NULL);
-  gint32     layer[CELD_N_LAYERS];
+  GtkWidget *combo = gimp_int_combo_box_new ("None", NO_LAYER, NULL);
 
-  celd_layers_find (image, layer);
-  for (int role = 0; role < CELD_N_LAYERS; role++)
+  for (guint i = 0; i < listed->len; i++)
     {
-      char *name = layer[role] < 0 ? NULL : gimp_item_get_name (layer[role]);
+      gint32 layer = g_array_index (listed, gint32, i);
+      char  *name = gimp_item_get_name (layer);
 
-      if (name || role <= CELD_LAYER_ARROWS)
-        g_string_append_printf (text, "%s%s: %s", text->len ? "\n" : "", celd_layer_role_name ((CeldLayerRole) role),
-                                name ? name : "(there is no layer of this name)");
+      gimp_int_combo_box_append (GIMP_INT_COMBO_BOX (combo), GIMP_INT_STORE_VALUE, layer, GIMP_INT_STORE_LABEL, name, -1);
       g_free (name);
     }
-  label = gtk_label_new (text->str);
-  gtk_misc_set_alignment (GTK_MISC (label), 0, 0.5);
-  gtk_container_add (GTK_CONTAINER (frame), label);
-  g_string_free (text, TRUE);
+  gimp_int_combo_box_connect (GIMP_INT_COMBO_BOX (combo), choices->layer[role], G_CALLBACK (layer_chosen),
+                              &choices->layer[role]);
+  gimp_help_set_help_data (combo, celd_layer_help[role], NULL);
+  return combo;
+}
+
+/* Which layers are read: those with the names, or others. */
+static GtkWidget *
+layers_frame (gint32 image, CeldChoices *choices)
+{
+  GArray    *listed = celd_layers_list (image);
+  GtkWidget *frame = gimp_frame_new ("Layers"), *table = gtk_table_new ((CELD_N_LAYERS + 1) / 2, 4, FALSE);
+
+  gtk_table_set_col_spacings (GTK_TABLE (table), SPACE);
+  gtk_table_set_row_spacings (GTK_TABLE (table), SPACE / 2);
+  for (int role = 0; role < CELD_N_LAYERS; role++)
+    gimp_table_attach_aligned (GTK_TABLE (table), role % 2 * 2, role / 2, celd_layer_role_name ((CeldLayerRole) role), 0,
+                               0.5, layer_combo (listed, role, choices), 1, FALSE);
+  gtk_container_add (GTK_CONTAINER (frame), table);
+  g_array_unref (listed);
   return frame;
 }
 
@@ -197,13 +218,15 @@ celd_dialog_run (gint32 image, CeldChoices *choices)
                             "_Cancel", GTK_RESPONSE_CANCEL, "_Make", GTK_RESPONSE_OK, NULL);
   gtk_dialog_set_default_response (GTK_DIALOG (dialog), GTK_RESPONSE_OK);
   gtk_container_set_border_width (GTK_CONTAINER (box), 2 * SPACE);
-  gtk_box_pack_start (GTK_BOX (box), layers_frame (image), FALSE, FALSE, 0);
+  gtk_box_pack_start (GTK_BOX (box), layers_frame (image, choices), FALSE, FALSE, 0);
   gtk_box_pack_start (GTK_BOX (box), pictures_frame (choices), FALSE, FALSE, 0);
   for (int i = 0; i < CELD_N_MAIN_SETTINGS;)
     gtk_box_pack_start (GTK_BOX (box), settings_frame (&i, choices), FALSE, FALSE, 0);
   gtk_box_pack_start (GTK_BOX (box), relations_frame (choices), FALSE, FALSE, 0);
   gtk_container_add (GTK_CONTAINER (gtk_dialog_get_content_area (GTK_DIALOG (dialog))), box);
   gtk_widget_show_all (dialog);
+  /* Return makes what is ticked; the first choice of a layer would have the focus, and open. */
+  gtk_widget_grab_focus (gtk_dialog_get_widget_for_response (GTK_DIALOG (dialog), GTK_RESPONSE_OK));
   go = gimp_dialog_run (GIMP_DIALOG (dialog)) == GTK_RESPONSE_OK;
   gtk_widget_destroy (dialog);
   return go;

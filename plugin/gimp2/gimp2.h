@@ -26,10 +26,11 @@ typedef struct
   guint        wanted;    /* pictures, as bits */
   CeldSettings settings;
   char        *relations; /* owned; never NULL */
+  gint32       layer[CELD_N_LAYERS];
 } CeldChoices;
 
-/* The defaults. */
-CeldChoices celd_choices (void);
+/* The defaults, with the layers of the image by their names. */
+CeldChoices celd_choices (gint32 image);
 void        celd_choices_clear (CeldChoices *choices);
 
 /* Sets what the texts say: names of pictures, settings such as "bulge=0.5 light-azimuth=90", relations.  Empty texts
@@ -42,6 +43,9 @@ void celd_choices_remember (gint32 image, const CeldChoices *choices);
 void celd_choices_recall   (gint32 image, CeldChoices *choices);
 
 /* ------------------------------------------------------------------ layers.c */
+
+/* All layers, those in groups too, from the top to the bottom, without the group of results; an array of gint32. */
+GArray *celd_layers_list (gint32 image);
 
 /* The layers by their names, -1 where there is none: see celd_layer_roles_find. */
 void celd_layers_find (gint32 image, gint32 found[CELD_N_LAYERS]);

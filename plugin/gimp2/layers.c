@@ -23,24 +23,32 @@ list (GArray *listed, gint32 image, gint32 group)
   g_free (layers);
 }
 
+GArray *
+celd_layers_list (gint32 image)
+{
+  GArray *listed = g_array_new (FALSE, FALSE, sizeof (gint32));
+
+  list (listed, image, -1);
+  return listed;
+}
+
 void
 celd_layers_find (gint32 image, gint32 found[CELD_N_LAYERS])
 {
-  GArray         *listed = g_array_new (FALSE, FALSE, sizeof (gint));
+  GArray         *listed = celd_layers_list (image);
   CeldNamedLayer *named;
   int             index[CELD_N_LAYERS];
 
-  list (listed, image, -1);
   named = g_new (CeldNamedLayer, listed->len + 1);
   for (guint i = 0; i < listed->len; i++)
     {
-      gint32 layer = g_array_index (listed, gint, i);
+      gint32 layer = g_array_index (listed, gint32, i);
 
       named[i] = (CeldNamedLayer) { gimp_item_get_name (layer), gimp_item_is_group (layer) };
     }
   celd_layer_roles_find (named, (int) listed->len, index);
   for (int role = 0; role < CELD_N_LAYERS; role++)
-    found[role] = index[role] < 0 ? -1 : g_array_index (listed, gint, index[role]);
+    found[role] = index[role] < 0 ? -1 : g_array_index (listed, gint32, index[role]);
   for (guint i = 0; i < listed->len; i++)
     g_free ((char *) named[i].name);
   g_free (named);

@@ -37,7 +37,7 @@ fail (GError **error, const char *message)
 }
 
 static gboolean
-check (gint32 image, const CeldChoices *choices, const gint32 layer[CELD_N_LAYERS], GError **error)
+check (gint32 image, const CeldChoices *choices, GError **error)
 {
   if (gimp_image_base_type (image) != GIMP_RGB)
     return fail (error, "This image has no colours, which scribbles and regions need. Turn it into an RGB image: "
@@ -46,21 +46,22 @@ check (gint32 image, const CeldChoices *choices, const gint32 layer[CELD_N_LAYER
     return fail (error, "There is a floating selection. Anchor it first: Layer > Anchor Layer.");
   if (!choices->wanted)
     return fail (error, "Nothing is chosen that could be made. Tick at least one picture.");
-  if (layer[CELD_LAYER_DRAWING] < 0)
-    return fail (error, "There is no layer named \"Drawing\", and there are several that could be it. Name it.");
-  if (layer[CELD_LAYER_SCRIBBLES] < 0 && layer[CELD_LAYER_ARROWS] < 0)
-    return fail (error, "There is no layer with scribbles or arrows. Make a layer named \"Scribbles\", and scribble "
-                 "over each part in a colour of its own.");
+  if (choices->layer[CELD_LAYER_DRAWING] < 0)
+    return fail (error, "There is no layer named \"Drawing\", and there are several that could be it. Name it, or choose it in "
+                 "the dialog.");
+  if (choices->layer[CELD_LAYER_SCRIBBLES] < 0 && choices->layer[CELD_LAYER_ARROWS] < 0)
+    return fail (error, "There is no layer with scribbles or arrows. Choose one in the dialog, or make a layer named "
+                 "\"Scribbles\", and scribble over each part in a colour of its own.");
   return TRUE;
 }
 
 static CeldPipeline *
-open_pipeline (gint32 image, const CeldChoices *choices, const gint32 layer[CELD_N_LAYERS], GError **error)
+open_pipeline (gint32 image, const CeldChoices *choices, GError **error)
 {
   CeldPipelineInput input = { .settings = choices->settings, .relations = choices->relations };
   CeldPipeline     *pipeline;
 
-  celd_layers_open (image, layer, &input);
+  celd_layers_open (image, choices->layer, &input);
   pipeline = celd_pipeline_new (&input, error);
   celd_layers_close (&input);
   return pipeline;
@@ -71,15 +72,14 @@ static gint32
 make (gint32 image, const CeldChoices *choices, GError **error)
 {
   Progress      progress = { 0, NULL };
-  gint32        layer[CELD_N_LAYERS], group = -1;
+  gint32        group = -1;
   CeldPipeline *pipeline;
   char         *problems;
 
-  celd_layers_find (image, layer);
-  if (!check (image, choices, layer, error))
+  if (!check (image, choices, error))
     return -1;
   gimp_progress_init ("Reading the layers");
-  pipeline = open_pipeline (image, choices, layer, error);
+  pipeline = open_pipeline (image, choices, error);
   if (pipeline && celd_pipeline_make (pipeline, choices->wanted, show_progress, &progress, error))
     {
       problems = celd_pipeline_problems (pipeline);
@@ -100,7 +100,7 @@ run_popup (const GimpParam *param, int n, gint32 *group, GError **error)
 {
   GimpRunMode       mode = (GimpRunMode) param[0].data.d_int32;
   gint32            image = param[1].data.d_image;
-  CeldChoices       choices = celd_choices ();
+  CeldChoices       choices = celd_choices (image);
   GimpPDBStatusType status = GIMP_PDB_SUCCESS;
 
   if (mode != GIMP_RUN_NONINTERACTIVE)
