@@ -4,6 +4,8 @@
  */
 #include "gimp3.h"
 
+#include <libgimp/gimpui.h>
+
 #define PALETTE "Cartoon Depth"
 
 /* Those that a drawing needs; others are made on demand.  From the bottom to the top. */
@@ -127,6 +129,30 @@ set_up (GimpImage *image, GimpProcedureConfig *config, GError **error)
   return TRUE;
 }
 
+/* ------------------------------------------------------------------ the procedure */
+
+/* FALSE: cancelled. */
+static gboolean
+ask (GimpProcedure *procedure, GimpProcedureConfig *config)
+{
+  GtkWidget           *window;
+  GimpProcedureDialog *dialog;
+  gboolean             go;
+
+  gimp_ui_init ("celdepth");
+  window = gimp_procedure_dialog_new (procedure, config, _ ("Set up layers"));
+  dialog = GIMP_PROCEDURE_DIALOG (window);
+  gimp_procedure_dialog_set_ok_label (dialog, _ ("_Make"));
+  gimp_procedure_dialog_get_label (dialog, "layers-title", _ ("Layers to make if they are missing"), FALSE, FALSE);
+  gimp_procedure_dialog_fill_box (dialog, "layers-box", "scribbles", "contours", "arrows", "corrections", "hidden",
+                                  NULL);
+  gimp_procedure_dialog_fill_frame (dialog, "layers", "layers-title", FALSE, "layers-box");
+  gimp_procedure_dialog_fill (dialog, "layers", NULL);
+  go = gimp_procedure_dialog_run (dialog);
+  gtk_widget_destroy (window);
+  return go;
+}
+
 static GimpValueArray *
 run (GimpProcedure *procedure, GimpRunMode run_mode, GimpImage *image, GimpDrawable **drawables,
      GimpProcedureConfig *config, gpointer run_data)
@@ -134,10 +160,11 @@ run (GimpProcedure *procedure, GimpRunMode run_mode, GimpImage *image, GimpDrawa
   GError  *error = NULL;
   gboolean good;
 
-  (void) run_mode;
   (void) drawables;
   (void) run_data;
   gegl_init (NULL, NULL);
+  if (run_mode == GIMP_RUN_INTERACTIVE && !ask (procedure, config))
+    return gimp_procedure_new_return_values (procedure, GIMP_PDB_CANCEL, NULL);
   good = set_up (image, config, &error);
   return gimp_procedure_new_return_values (procedure, good ? GIMP_PDB_SUCCESS : GIMP_PDB_EXECUTION_ERROR, error);
 }
@@ -148,13 +175,13 @@ add_arguments (GimpProcedure *procedure)
   for (gsize i = 0; i < G_N_ELEMENTS (made); i++)
     gimp_procedure_add_boolean_argument (procedure, celd_layer_arguments[made[i].role],
                                          _ (celd_layer_role_name (made[i].role)),
-                                         _ ("Whether this layer is made if it is missing"), made[i].usual,
+                                         _ (celd_layer_help[made[i].role]), made[i].usual,
                                          G_PARAM_READWRITE);
 }
 
 const CeldProcedure celd_setup_procedure = {
   .name          = "plug-in-celdepth-set-up-layers",
-  .menu_label    = N_ ("_Set up layers"),
+  .menu_label    = N_ ("_Set up layers..."),
   .blurb         = N_ ("Makes layers for scribbles, arrows and contours, locks the drawing, and offers 24 colours to "
                        "scribble with"),
   .help          = N_ ("Layers that are there already stay as they are. The lowest layer is the drawing if none has "
