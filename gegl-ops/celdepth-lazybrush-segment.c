@@ -52,7 +52,7 @@ write_problems (CeldOp *op)
   CeldLabels labels;
 
   return celd_op_try (op, celd_session_labels (op->operation->session, &op->host, &labels, NULL)) &&
-         celd_op_write_problems (op);
+         celd_op_write_problems (op, "input");
 }
 
 static gboolean

@@ -1,7 +1,9 @@
-/* celdepth:popup: the whole method of the paper as one operation, with a session.
+/* celdepth:popup: the whole method of the paper as one operation, with a session.  celdepth:live-popup is the same with
+ * other pads.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
+#include "popup.h"
 #include "properties.h"
 
 static const CeldSettingChoice results[] = {
@@ -21,7 +23,7 @@ static const CeldSettingInfo result_row = {
           "linear numbers"
 };
 
-static const CeldProperty properties[] = {
+const CeldProperty celd_popup_properties[] = {
   { .own = &result_row },
   { .name = "ink" }, { .name = "background" }, { .name = "background-colour" }, { .name = "arrow-style" },
   { .name = "suggest" },
@@ -43,19 +45,8 @@ static const CeldProperty properties[] = {
   { 0 }
 };
 
-static const CeldPad pads[] = {
-  { "input", "Drawing", "The line drawing", TRUE },
-  { "aux", "Scribbles", "One stroke over each part, in a colour of its own", FALSE },
-  { "aux2", "Arrows", "Arrows that point from nearer to farther parts", FALSE },
-  { "aux3", "Virtual contours", "Red: a boundary of regions and depth; blue: a boundary of regions across which "
-                                "depth stays smooth; green: ink that is not a boundary", FALSE },
-  { "aux4", "Hidden", "What is hidden: strokes in a region's colour where it goes on behind nearer ones, black where "
-                      "it does not", FALSE },
-  { NULL, NULL, NULL, FALSE }
-};
-
-static void
-prepare (GeglOperation *operation)
+void
+celd_popup_prepare (GeglOperation *operation)
 {
   static const char *const formats[] = {
     [CELD_POPUP_LABELS] = "R'G'B'A u8", [CELD_POPUP_ORDER]   = "Y float",   [CELD_POPUP_LEVELS]  = "Y float",
@@ -86,12 +77,12 @@ write_normals (CeldOp *op)
 
 /* Problems up to the sheets, which need the order, so that the picture does not depend on what was asked for before. */
 static gboolean
-write_problems (CeldOp *op)
+write_problems (CeldOp *op, const char *drawing)
 {
   const CeldSheets *sheets;
 
   return celd_op_try (op, celd_session_sheets (op->operation->session, &op->host, &sheets)) &&
-         celd_op_write_problems (op);
+         celd_op_write_problems (op, drawing);
 }
 
 static gboolean
@@ -105,7 +96,7 @@ write_suggestions (CeldOp *op)
 }
 
 static gboolean
-write_result (CeldOp *op)
+write_result (CeldOp *op, const char *drawing)
 {
   switch ((CeldPopupResult) op->own.result)
     {
@@ -115,28 +106,49 @@ write_result (CeldOp *op)
     case CELD_POPUP_DEPTH:    return write_plane (op, celd_session_depth);
     case CELD_POPUP_NORMALS:  return write_normals (op);
     case CELD_POPUP_SHADING:  return write_plane (op, celd_session_shading);
-    case CELD_POPUP_PROBLEMS: return write_problems (op);
+    case CELD_POPUP_PROBLEMS: return write_problems (op, drawing);
     case CELD_POPUP_SUGGESTIONS: return write_suggestions (op);
     }
   return FALSE;
 }
 
+gboolean
+celd_popup_render (CeldOp *op, const CeldPopupPads *pads)
+{
+  return celd_op_set_session (op, pads->drawing, pads->scribbles, pads->arrows) &&
+         celd_op_set_layer (op, pads->contours, celd_session_set_contours) &&
+         celd_op_set_layer (op, pads->hidden, celd_session_set_hidden) &&
+         write_result (op, pads->drawing);
+}
+
+/* All results but two have made the order already. */
 static gboolean
-render (CeldOp *op)
+report (CeldOp *op)
 {
   int              result = op->own.result;
   const CeldOrder *order = NULL;
 
-  if (!celd_op_set_session (op, "input", "aux", "aux2") ||
-      !celd_op_set_layer (op, "aux3", celd_session_set_contours) ||
-      !celd_op_set_layer (op, "aux4", celd_session_set_hidden) ||
-      !write_result (op))
-    return FALSE;
-  /* All results but these two have made the order already. */
   if (result != CELD_POPUP_LABELS && result != CELD_POPUP_SUGGESTIONS &&
       !celd_op_try (op, celd_session_order (op->operation->session, NULL, &order)))
     return FALSE;
   return celd_op_report_session (op, order);
+}
+
+static const CeldPad pads[] = {
+  { "input", "Drawing", "The line drawing", TRUE },
+  { "aux", "Scribbles", CELD_HELP_SCRIBBLES, FALSE },
+  { "aux2", "Arrows", CELD_HELP_ARROWS, FALSE },
+  { "aux3", "Virtual contours", CELD_HELP_CONTOURS, FALSE },
+  { "aux4", "Hidden", CELD_HELP_HIDDEN, FALSE },
+  { NULL, NULL, NULL, FALSE }
+};
+
+static gboolean
+render (CeldOp *op)
+{
+  static const CeldPopupPads by_role = { "input", "aux", "aux2", "aux3", "aux4" };
+
+  return celd_popup_render (op, &by_role) && report (op);
 }
 
 const CeldOperationInfo celd_popup_operation = {
@@ -147,7 +159,7 @@ const CeldOperationInfo celd_popup_operation = {
                  "farther parts",
   .reference   = CELD_REFERENCE,
   .pads        = pads,
-  .properties  = properties,
-  .prepare     = prepare,
+  .properties  = celd_popup_properties,
+  .prepare     = celd_popup_prepare,
   .render      = render,
 };

@@ -8,7 +8,7 @@ extern const CeldOperationInfo celd_virtual_contours_operation, celd_lazybrush_s
   celd_depth_order_operation, celd_depth_expand_operation, celd_depth_smooth_operation, celd_depth_exact_operation,
   celd_lumo_shade_operation, celd_depth_enhance_operation, celd_relief_operation, celd_stereo_operation,
   celd_arap_register_operation, celd_depth_propagate_operation, celd_arap_deform_operation,
-  celd_compose_operation, celd_popup_operation;
+  celd_compose_operation, celd_popup_operation, celd_live_popup_operation;
 
 const CeldOperationInfo *const celd_operations[] = {
   &celd_virtual_contours_operation, &celd_lazybrush_segment_operation, &celd_depth_order_operation,
@@ -16,6 +16,7 @@ const CeldOperationInfo *const celd_operations[] = {
   &celd_lumo_shade_operation,       &celd_depth_enhance_operation,     &celd_relief_operation,
   &celd_stereo_operation,           &celd_arap_register_operation,     &celd_depth_propagate_operation,
   &celd_arap_deform_operation,      &celd_compose_operation,           &celd_popup_operation,
+  &celd_live_popup_operation,
   NULL
 };
 

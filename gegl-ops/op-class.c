@@ -119,6 +119,17 @@ celd_operation_class_finalize (CeldOperationClass *klass)
 
 /* ------------------------------------------------------------------ the operations */
 
+/* In GIMP's menu of filters. */
+static void
+list_in_menu (GeglOperationClass *klass, const CeldOperationInfo *info)
+{
+  char *label = g_strdup_printf ("%s...", TRANSLATED (info->title));
+
+  gegl_operation_class_set_keys (klass, "gimp:menu-path", "<Image>/Filters/Cartoon Depth", "gimp:menu-label", label,
+                                 NULL);
+  g_free (label);
+}
+
 /* Makes the class of an operation from its CeldOperationInfo. */
 static void
 init_operation (gpointer g_class, gpointer data)
@@ -126,7 +137,6 @@ init_operation (gpointer g_class, gpointer data)
   CeldOperationClass      *klass = g_class;
   GeglOperationClass      *operation_class = g_class;
   const CeldOperationInfo *info = data;
-  char                    *menu_label = g_strdup_printf ("%s...", TRANSLATED (info->title));
 
   klass->info = info;
   G_OBJECT_CLASS (klass)->set_property = celd_operation_set_property; /* not inherited */
@@ -142,10 +152,9 @@ init_operation (gpointer g_class, gpointer data)
     "categories",      info->categories,
     "description",     TRANSLATED (info->description),
     "reference",       info->reference,
-    "gimp:menu-path",  "<Image>/Filters/Cartoon Depth",
-    "gimp:menu-label", menu_label,
     NULL);
-  g_free (menu_label);
+  if (!info->unlisted)
+    list_in_menu (operation_class, info);
 }
 
 static void

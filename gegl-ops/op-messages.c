@@ -28,7 +28,7 @@ celd_op_fail (CeldOp *op, const char *format, ...)
   return FALSE;
 }
 
-/* While the artist is still choosing layers, missing scribbles and arrows are not reported. */
+/* While the artist is still choosing or painting layers, missing scribbles and arrows are not reported. */
 gboolean
 celd_op_try (CeldOp *op, CeldStatus status)
 {

@@ -72,6 +72,7 @@ typedef struct
   const char         *categories, *description, *reference;
   const CeldPad      *pads;        /* "input" first, ended by a NULL name */
   const CeldProperty *properties;  /* in the order of dialogs; the last one has neither name nor row */
+  gboolean            unlisted;    /* not in GIMP's menu of filters */
   const char         *format;      /* of the output; NULL: `prepare` sets it */
   void              (*prepare) (GeglOperation *operation);
   void              (*adjust) (GeglOperationClass *klass); /* changes functions of the base class; may be NULL */
@@ -138,12 +139,12 @@ struct _CeldOp
   CeldRelations         relations;
   CeldProblems          problems;
   CeldOrder             order;
+  gboolean              choosing;  /* nothing is said of missing scribbles and arrows: they are still to come */
 
   /* used by op*.c and pixels.c only */
   GPtrArray            *scratch;
   GString              *message;
   double                progress;
-  gboolean              choosing;  /* a layer has not been chosen yet in the host's dialog */
 };
 
 /* ------------------------------------------------------------------ op-messages.c */
@@ -217,7 +218,7 @@ gboolean celd_op_report_session (CeldOp *op, const CeldOrder *order);
 
 /* Write the session's labels as colours; and the input with marks for the problems of all valid stages. */
 gboolean celd_op_write_labels   (CeldOp *op);
-gboolean celd_op_write_problems (CeldOp *op);
+gboolean celd_op_write_problems (CeldOp *op, const char *drawing_pad);
 
 /* ------------------------------------------------------------------ kept.c */
 

@@ -67,12 +67,12 @@ celd_op_write_labels (CeldOp *op)
 }
 
 gboolean
-celd_op_write_problems (CeldOp *op)
+celd_op_write_problems (CeldOp *op, const char *drawing_pad)
 {
   const CeldProblems *problems = celd_session_problems (op->operation->session);
   CeldPaint           paint;
 
-  if (!celd_op_try (op, problems ? CELD_OK : CELD_NO_MEMORY) || !celd_op_read_paint (op, "input", &paint))
+  if (!celd_op_try (op, problems ? CELD_OK : CELD_NO_MEMORY) || !celd_op_read_paint (op, drawing_pad, &paint))
     return FALSE;
   celd_problems_paint (problems, &paint);
   return celd_op_write (op, paint.data);

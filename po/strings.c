@@ -707,3 +707,11 @@ N_("Order: the level of each region")
 N_("Suggestions: arrows from parts that seem nearer")
 /* celdepth:popup, help */
 N_("The step of the method whose result is shown. In order, levels and depth nearer parts are lighter, in linear numbers")
+/* celdepth:live-popup, title */
+N_("Live pop-up")
+/* celdepth:live-popup, description */
+N_("Pop-up as an effect on a layer group, which follows what is painted on its layers. In GIMP, Cartoon Depth > Live group makes it")
+/* celdepth:live-popup, layer */
+N_("Group")
+/* celdepth:live-popup, help of a layer */
+N_("All layers over each other; the line drawing if there is no other one")
