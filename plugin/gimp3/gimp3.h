@@ -12,6 +12,7 @@
  *   split.c      Split into layers
  *   suggest.c    Suggest order
  *   stereo.c     Stereo
+ *   group.c      Live group
  *   export.c     Export depth
  *   mesh.c       Relief mesh
  *   setup.c      Set up layers
@@ -50,7 +51,7 @@ struct CeldProcedure
 };
 
 extern const CeldProcedure celd_popup_procedure, celd_setup_procedure, celd_split_procedure, celd_suggest_procedure,
-  celd_stereo_procedure, celd_export_procedure, celd_mesh_procedure;
+  celd_stereo_procedure, celd_group_procedure, celd_export_procedure, celd_mesh_procedure;
 
 /* ------------------------------------------------------------------ run.c */
 
@@ -58,6 +59,9 @@ extern const CeldProcedure celd_popup_procedure, celd_setup_procedure, celd_spli
  * one, is the layer that was written. */
 GimpValueArray *celd_run (GimpProcedure *procedure, GimpRunMode run_mode, GimpImage *image, GimpDrawable **drawables,
                           GimpProcedureConfig *config, gpointer run_data);
+
+/* Whether the image has colours, and no floating selection; if not, with *error. */
+gboolean celd_image_check (GimpImage *image, GError **error);
 
 /* ------------------------------------------------------------------ layers.c */
 
@@ -70,6 +74,9 @@ GArray *celd_layers_list (GimpImage *image);
 /* The layers by their names, NULL where there is none.  Without a layer of the drawing's name the only layer that has
  * no other role is it. */
 void celd_layers_find (GimpImage *image, GimpLayer *found[CELD_N_LAYERS]);
+
+/* The same, of the layers in a group. */
+void celd_layers_find_inside (GimpLayer *group, GimpLayer *found[CELD_N_LAYERS]);
 
 /* The lowest layer that has no role in `found`; NULL: there is none. */
 GimpLayer *celd_layers_lowest (GimpImage *image, GimpLayer *const found[CELD_N_LAYERS]);
@@ -150,6 +157,10 @@ typedef struct
  * Other ones of these layers are removed; those whose pixels are locked stay as they are.  NULL on failure. */
 GimpGroupLayer *celd_results_write (GimpImage *image, CeldPipeline *pipeline, const CeldResults *results, guint wanted,
                                     GError **error);
+
+/* Selects nothing, and again what was selected before, which is NULL if there was no selection. */
+GimpChannel *celd_selection_clear   (GimpImage *image);
+void         celd_selection_restore (GimpImage *image, GimpChannel *selection);
 
 /* The layer with this mark in a group of results; NULL: there is none. */
 GimpLayer *celd_results_find (GimpImage *image, const char *mark);

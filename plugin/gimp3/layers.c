@@ -8,20 +8,26 @@
 
 /* ------------------------------------------------------------------ listing */
 
+static void list (GArray *listed, GimpLayer *layer, int depth);
+
+static void
+list_children (GArray *listed, GimpLayer *group, int depth)
+{
+  GimpItem **children = gimp_item_get_children (GIMP_ITEM (group));
+
+  for (int i = 0; children && children[i]; i++)
+    list (listed, GIMP_LAYER (children[i]), depth);
+  g_free (children);
+}
+
 static void
 list (GArray *listed, GimpLayer *layer, int depth)
 {
-  GimpItem **children;
-
   if (celd_results_is_group (GIMP_ITEM (layer)))
     return;
   g_array_append_val (listed, ((CeldListedLayer) { layer, depth }));
-  if (!gimp_item_is_group (GIMP_ITEM (layer)))
-    return;
-  children = gimp_item_get_children (GIMP_ITEM (layer));
-  for (int i = 0; children && children[i]; i++)
-    list (listed, GIMP_LAYER (children[i]), depth + 1);
-  g_free (children);
+  if (gimp_item_is_group (GIMP_ITEM (layer)))
+    list_children (listed, layer, depth + 1);
 }
 
 GArray *
@@ -61,10 +67,9 @@ free_names (CeldNamedLayer *named, guint n)
   g_free (named);
 }
 
-void
-celd_layers_find (GimpImage *image, GimpLayer *found[CELD_N_LAYERS])
+static void
+find (const GArray *listed, GimpLayer *found[CELD_N_LAYERS])
 {
-  GArray         *listed = celd_layers_list (image);
   CeldNamedLayer *named = get_names (listed);
   int             index[CELD_N_LAYERS];
 
@@ -72,6 +77,24 @@ celd_layers_find (GimpImage *image, GimpLayer *found[CELD_N_LAYERS])
   for (int role = 0; role < CELD_N_LAYERS; role++)
     found[role] = index[role] < 0 ? NULL : g_array_index (listed, CeldListedLayer, index[role]).layer;
   free_names (named, listed->len);
+}
+
+void
+celd_layers_find (GimpImage *image, GimpLayer *found[CELD_N_LAYERS])
+{
+  GArray *listed = celd_layers_list (image);
+
+  find (listed, found);
+  g_array_unref (listed);
+}
+
+void
+celd_layers_find_inside (GimpLayer *group, GimpLayer *found[CELD_N_LAYERS])
+{
+  GArray *listed = g_array_new (FALSE, FALSE, sizeof (CeldListedLayer));
+
+  list_children (listed, group, 0);
+  find (listed, found);
   g_array_unref (listed);
 }
 

@@ -194,32 +194,35 @@ write_all (const Writing *w, GError **error)
   return good;
 }
 
-/* Calls write_all with nothing selected, and selects again what was: merging would be limited to the selection. */
-static gboolean
-write_unselected (const Writing *w, GError **error)
+GimpChannel *
+celd_selection_clear (GimpImage *image)
 {
-  GimpImage   *image = w->image;
   GimpChannel *selection = gimp_selection_is_empty (image) ? NULL : gimp_selection_save (image);
-  gboolean     good;
 
   if (selection)
     gimp_selection_none (image);
-  good = write_all (w, error);
-  if (selection)
-    {
-      gimp_context_push ();
-      gimp_context_set_feather (FALSE);
-      gimp_image_select_item (image, GIMP_CHANNEL_OP_REPLACE, GIMP_ITEM (selection));
-      gimp_context_pop ();
-      gimp_image_remove_channel (image, selection);
-    }
-  return good;
+  return selection;
+}
+
+void
+celd_selection_restore (GimpImage *image, GimpChannel *selection)
+{
+  if (!selection)
+    return;
+  gimp_context_push ();
+  gimp_context_set_feather (FALSE);
+  gimp_image_select_item (image, GIMP_CHANNEL_OP_REPLACE, GIMP_ITEM (selection));
+  gimp_context_pop ();
+  gimp_image_remove_channel (image, selection);
 }
 
 GimpGroupLayer *
 celd_results_write (GimpImage *image, CeldPipeline *pipeline, const CeldResults *results, guint wanted, GError **error)
 {
-  Writing w = { image, pipeline, get_group (image), results, wanted };
+  Writing      w = { image, pipeline, get_group (image), results, wanted };
+  GimpChannel *selection = celd_selection_clear (image); /* merging would be limited to it */
+  gboolean     good = write_all (&w, error);
 
-  return write_unselected (&w, error) ? w.group : NULL;
+  celd_selection_restore (image, selection);
+  return good ? w.group : NULL;
 }

@@ -37,8 +37,8 @@ fail (GError **error, const char *message)
   return FALSE;
 }
 
-static gboolean
-check_image (GimpImage *image, GError **error)
+gboolean
+celd_image_check (GimpImage *image, GError **error)
 {
   if (gimp_image_get_base_type (image) != GIMP_RGB)
     return fail (error, _ ("This image has no colours, which scribbles and regions need. Turn it into an RGB image: "
@@ -223,7 +223,7 @@ celd_run (GimpProcedure *procedure, GimpRunMode run_mode, GimpImage *image, Gimp
 
   (void) drawables;
   gegl_init (NULL, NULL);
-  if (!check_image (image, &error))
+  if (!celd_image_check (image, &error))
     return gimp_procedure_new_return_values (procedure, GIMP_PDB_CALLING_ERROR, error);
   if (script)
     find_layers (image, config);
