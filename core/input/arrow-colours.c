@@ -173,18 +173,26 @@ close_colour (ColourSplit *s, int colour)
   return status;
 }
 
-/* Appends the pixels of one part. */
+/* Appends the pixels of one part of a colour. */
 static CeldStatus
-add_part (const ColourSplit *s, const CeldArrowStroke *stroke, uint32_t part, CeldCrossingStrokes *to)
+add_part (const ColourSplit *s, const CeldArrowStroke *stroke, int colour, uint32_t part, CeldColourStrokes *all)
 {
-  size_t row = (size_t) stroke->width + 2, n = to->first[to->n];
+  CeldCrossingStrokes *to = &all->strokes;
+  size_t               row = (size_t) stroke->width + 2, n = to->first[to->n], n_seen = n;
 
   for (int y = 0; y < s->mask.height; y++)
     for (int x = 0; x < s->mask.width; x++)
-      if (CELD_AT (&s->parts, x, y) == part &&
-          celd_append (to->pixel, n, to->pixel_capacity,
-                       (uint32_t) ((size_t) (y + s->mask.top + 1) * row + (size_t) (x + s->mask.left + 1))) != CELD_OK)
-        return CELD_NO_MEMORY;
+      {
+        size_t p = (size_t) y * (size_t) s->mask.width + (size_t) x;
+
+        if (CELD_AT (&s->parts, x, y) != part)
+          continue;
+        if (celd_append (all->seen, n_seen, all->seen_capacity, s->index[p] == colour) != CELD_OK ||
+            celd_append (to->pixel, n, to->pixel_capacity,
+                         (uint32_t) ((size_t) (y + s->mask.top + 1) * row + (size_t) (x + s->mask.left + 1))) !=
+              CELD_OK)
+          return CELD_NO_MEMORY;
+      }
   to->first[++to->n] = n;
   return CELD_OK;
 }
@@ -206,7 +214,7 @@ is_broken (ColourSplit *s, uint32_t part, bool *broken)
 
 /* Appends the connected parts of one colour, each a stroke, and to `doubtful` whether it may be a part of one. */
 static CeldStatus
-add_parts (ColourSplit *s, const CeldArrowStroke *stroke, CeldColourStrokes *to)
+add_parts (ColourSplit *s, const CeldArrowStroke *stroke, int colour, CeldColourStrokes *to)
 {
   CeldStatus status = celd_components (&s->parts, 0, true, NULL, &s->parts, &s->part, &s->n_parts);
 
@@ -224,7 +232,7 @@ add_parts (ColourSplit *s, const CeldArrowStroke *stroke, CeldColourStrokes *to)
       if (status == CELD_OK)
         status = celd_append (to->strokes.first, n_first, to->first_capacity, 0);
       if (status == CELD_OK)
-        status = add_part (s, stroke, (uint32_t) k + 1, &to->strokes);
+        status = add_part (s, stroke, colour, (uint32_t) k + 1, to);
     }
   celd_free (s->part);
   s->part = NULL;
@@ -276,7 +284,7 @@ celd_arrow_colours_split (const CeldArrowStroke *component, const CeldArrowLayer
     {
       status = close_colour (&s, k);
       if (status == CELD_OK)
-        status = add_parts (&s, component, &made);
+        status = add_parts (&s, component, k, &made);
     }
   colour_split_clear (&s);
   if (status == CELD_OK)
@@ -291,5 +299,6 @@ celd_colour_strokes_clear (CeldColourStrokes *s)
 {
   celd_crossing_strokes_clear (&s->strokes);
   celd_free (s->doubtful);
+  celd_free (s->seen);
   *s = (CeldColourStrokes) { 0 };
 }

@@ -104,10 +104,9 @@ same_colour (const CeldArrowLayer *layer, Colour a, Colour b)
   return hypot (hypot (a.red - b.red, a.green - b.green), a.blue - b.blue) <= OTHER_COLOUR;
 }
 
-/* Do the first two pieces of sufficient opacity differ in colour from the last two? A single piece may be where another
- * stroke crosses. */
-static bool
-changes_colour (const CeldArrowStroke *stroke, const CeldArrowLayer *layer)
+/* A single piece of another colour may be where another stroke crosses. */
+bool
+celd_stroke_changes_colour (const CeldArrowStroke *stroke, const CeldArrowLayer *layer)
 {
   double piece = celd_stroke_length (stroke) / MOST_PIECES;
   Colour colour[MOST_PIECES];
@@ -244,8 +243,8 @@ celd_arrow_profile (CeldArrowStroke *stroke, const CeldArrowLayer *layer, CeldAr
   measure (stroke, layer, CELD_ARROW_TAPER, 0, n, widths);
   for (int i = 0; i < n; i++)
     widths[0] = fmax (widths[0], widths[i]);
-  if (length < 1.5 * widths[0] || !is_single (stroke, start, last, widths[0]) || changes_colour (stroke, layer) ||
-      has_sharp_corner (stroke, widths[0]) ||
+  if (length < 1.5 * widths[0] || !is_single (stroke, start, last, widths[0]) ||
+      celd_stroke_changes_colour (stroke, layer) || has_sharp_corner (stroke, widths[0]) ||
       (style == CELD_ARROW_TAPER && runs_along_frame (stroke, widths[0])))
     return false;
   margin = fmin (0.3 * widths[0], length / 8);

@@ -130,8 +130,18 @@ select_stroke (const CeldCrossingStrokes *strokes, size_t k, CeldArrowStroke *st
   stroke->n     = strokes->first[k + 1] - strokes->first[k];
 }
 
-/* Appends the relations of all strokes.  If one of them is no clear arrow, none is appended and *clear becomes false,
- * because what looks like a crossing may be part of another figure. */
+/* Has a stroke two colours, one at each end?  Then it is two strokes that meet. */
+static bool
+has_two_colours (CeldArrowStroke *stroke, const CeldArrowLayer *layer)
+{
+  uint32_t start = celd_stroke_follow (stroke, stroke->pixel, 1);
+
+  celd_stroke_follow (stroke, &start, 1);
+  return celd_stroke_changes_colour (stroke, layer);
+}
+
+/* Appends the relations of all strokes.  If one of them is no clear arrow of one colour, none is appended and *clear
+ * becomes false, because what looks like a crossing may be part of another figure. */
 static CeldStatus
 read_crossing (CeldArrowStroke *stroke, const CeldCrossingStrokes *strokes, const CeldArrowLayer *layer,
                CeldArrowStyle style, CeldRelations *relations, bool *clear)
@@ -141,8 +151,12 @@ read_crossing (CeldArrowStroke *stroke, const CeldCrossingStrokes *strokes, cons
 
   for (size_t k = 0; k < strokes->n && status == CELD_OK && *clear; k++)
     {
+      bool one_colour;
+
       select_stroke (strokes, k, stroke);
-      status = read_one (stroke, layer, style, relations, clear);
+      one_colour = !has_two_colours (stroke, layer);
+      status     = read_one (stroke, layer, style, relations, clear);
+      *clear &= one_colour;
     }
   if (!*clear)
     relations->n = before;
@@ -199,8 +213,8 @@ typedef struct { CeldArrowEnd *item; size_t n, capacity; } Ends; /* two for each
 
 /* Appends the ends of the relations from `first` on, which are those of a stroke. */
 static CeldStatus
-add_ends (const CeldStrokeMask *component, const CeldArrowStroke *stroke, const CeldRelations *relations, size_t first,
-          Ends *ends)
+add_ends (const CeldStrokeMask *component, const CeldArrowStroke *stroke, const bool *seen,
+          const CeldRelations *relations, size_t first, Ends *ends)
 {
   CeldStatus status = CELD_OK;
 
@@ -208,8 +222,8 @@ add_ends (const CeldStrokeMask *component, const CeldArrowStroke *stroke, const 
     {
       const CeldRelation *r = &relations->item[i];
       CeldPoint           tail = { r->nearer.x, r->nearer.y }, tip = { r->farther.x, r->farther.y };
-      CeldArrowEnd        from = celd_arrow_end (component, stroke, tail, tip);
-      CeldArrowEnd        to = celd_arrow_end (component, stroke, tip, tail);
+      CeldArrowEnd        from = celd_arrow_end (component, stroke, seen, tail, tip);
+      CeldArrowEnd        to = celd_arrow_end (component, stroke, seen, tip, tail);
 
       status = celd_append (ends->item, ends->n, ends->capacity, from);
       if (status == CELD_OK)
@@ -263,7 +277,9 @@ read_colours (const CeldColourStrokes *colours, CeldArrowStroke *stroke, const C
       if (!colours->doubtful[k])
         status = read_strokes (stroke, layer, style, relations, &clear);
       if (status == CELD_OK)
-        status = clear ? add_ends (&component, stroke, relations, before, &ends) : report_strokes (stroke, problems);
+        status = clear ? add_ends (&component, stroke, &colours->seen[colours->strokes.first[k]], relations, before,
+                                   &ends)
+                       : report_strokes (stroke, problems);
     }
   if (status == CELD_OK)
     status = remove_hidden (&ends, relations, first, problems);

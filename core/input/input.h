@@ -261,6 +261,10 @@ typedef struct { CeldPoint tail, tip; } CeldArrowEnds;
 /* False if the stroke has no clear arrowhead; with `dot`, no clear dot, whose centre is then the tip. */
 bool celd_arrowhead (CeldArrowStroke *stroke, bool dot, CeldArrowEnds *ends);
 
+/* Do the first two pieces of sufficient opacity of a stroke that is followed from an end differ in colour from the last
+ * two? */
+bool celd_stroke_changes_colour (const CeldArrowStroke *stroke, const CeldArrowLayer *layer);
+
 /* The more opaque (CELD_ARROW_FADE) or the wider (CELD_ARROW_TAPER) end of a stroke is the tail; false if neither end
  * clearly is. */
 bool celd_arrow_profile (CeldArrowStroke *stroke, const CeldArrowLayer *layer, CeldArrowStyle style,
@@ -291,12 +295,12 @@ CeldStatus celd_crossing_strokes_find (const CeldArrowStroke *component, CeldCro
 void       celd_crossing_strokes_clear (CeldCrossingStrokes *strokes);
 
 /* arrow-colours.c: connected paint of each colour of a component; doubtful: it may be a part of a stroke that others
- * hide. */
+ * hide; seen: of each pixel, that it has that colour, and not one that hides it. */
 typedef struct
 {
   CeldCrossingStrokes strokes;
-  bool               *doubtful;
-  size_t              first_capacity, doubtful_capacity;
+  bool               *doubtful, *seen;
+  size_t              first_capacity, doubtful_capacity, seen_capacity;
 } CeldColourStrokes;
 
 /* strokes.n = 0 if the component has one colour.  To be cleared by the caller. */
@@ -310,9 +314,9 @@ void       celd_colour_strokes_clear (CeldColourStrokes *strokes);
  * goes on in its direction and may hide its end. */
 typedef struct { CeldPoint at; double width; bool visible; } CeldArrowEnd;
 
-/* The end at `at` of an arrow from or to `other`, whose paint is `stroke`. */
-CeldArrowEnd celd_arrow_end (const CeldStrokeMask *component, const CeldArrowStroke *stroke, CeldPoint at,
-                             CeldPoint other);
+/* The end at `at` of an arrow from or to `other`, whose paint is `stroke`; seen: which of its pixels nothing hides. */
+CeldArrowEnd celd_arrow_end (const CeldStrokeMask *component, const CeldArrowStroke *stroke, const bool *seen,
+                             CeldPoint at, CeldPoint other);
 
 /* Is the place of end k of n known?  Arrow k has the ends 2 k and 2 k + 1. */
 bool celd_arrow_end_known (const CeldArrowEnd *ends, size_t n, size_t k);

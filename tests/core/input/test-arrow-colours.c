@@ -99,6 +99,71 @@ side_by_side (void)
   read_shared (OVERLAP, 2, 0);
 }
 
+/* Four that begin or end in the middle, half a radian apart or more: opposite ones may look like one stroke. */
+static void
+at_any_angles (void)
+{
+  uint32_t state = 3;
+  int      right = 0, all = 0;
+
+  for (int i = 0; i < 400; i++)
+    {
+      CeldArrowStyle style = STYLES[i % 4];
+      double         w = random_between (&state, 3, 7);
+      CeldPaint      paint = blank (SIZE, SIZE);
+      Arrow          a[4];
+      Answer         answer;
+      size_t         found = 0;
+      double         angle = random_between (&state, 0, 6.28);
+
+      for (int k = 0; k < 4; k++)
+        {
+          angle += 0.5 + random_between (&state, 0, 1);
+          a[k] = spoke (angle, random_between (&state, 10, 16) * w, w, style,
+                        check_random (&state, 2), i % 8 < 4);
+          draw_arrow (&paint, &a[k], COLOURS[k]);
+        }
+      answer = read_paint (&paint, style);
+      for (int k = 0; k < 4; k++)
+        found += is_read (&answer, &a[k], style);
+      CHECK (answer.relations.n == found);
+      right += (int) found;
+      all   += 4;
+      forget (&answer);
+      free (paint.data);
+    }
+  CHECK (right >= 0.7 * all);
+}
+
+/* The line of a head lies on the tail of an arrow that leaves the same place. */
+static void
+tails_below_heads (void)
+{
+  uint32_t state = 9;
+  int      all = 0;
+
+  for (int i = 0; i < 600; i++)
+    {
+      double    angle = random_between (&state, 0, 6.28), w = random_between (&state, 3, 7), length = 15 * w;
+      CeldPaint paint = blank (SIZE, SIZE);
+      Arrow     below, above = spoke (angle, length, w, CELD_ARROW_HEAD, true, true);
+      Answer    answer;
+      size_t    found;
+
+      angle += (i % 2 ? 0.55 : -0.55) + random_between (&state, -0.3, 0.3);
+      below = spoke (angle, length, w * random_between (&state, 0.8, 1.3), CELD_ARROW_HEAD, false, true);
+      draw_arrow (&paint, &below, COLOURS[0]);
+      draw_arrow (&paint, &above, COLOURS[1]);
+      answer = read_paint (&paint, CELD_ARROW_HEAD);
+      found  = (size_t) is_read (&answer, &below, CELD_ARROW_HEAD) + is_read (&answer, &above, CELD_ARROW_HEAD);
+      CHECK (answer.relations.n == found);
+      all += (int) found;
+      forget (&answer);
+      free (paint.data);
+    }
+  CHECK (all >= 600);
+}
+
 /* Each keeps its own colour, so that only the blue one cracks. */
 static void
 colours_stay (void)
@@ -126,6 +191,8 @@ main (void)
   RUN (head_to_tail);
   RUN (both_ways);
   RUN (side_by_side);
+  RUN (at_any_angles);
+  RUN (tails_below_heads);
   RUN (colours_stay);
   return DONE;
 }
