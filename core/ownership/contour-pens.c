@@ -16,6 +16,8 @@
 #define THICKNESS_TOLERANCE 0.5f  /* pixels by which thickness may be off; chosen */
 #define MAX_SLANT           1.5f  /* pen widths that a normal may run through a line at a slant; chosen */
 #define TIP_WIDTHS          6.f   /* pen widths that the two sides of an outline run on to their common tip; chosen */
+#define SPECK_POINTS        8     /* the edge of a speck of paper has at most so many points, */
+#define SPECK_STROKES       4     /* and less than so many times the drawing's line width; chosen */
 
 static uint32_t
 label_at (const CeldLabels *labels, int32_t pixel)
@@ -198,6 +200,14 @@ assume_owner (const CeldContourPens *pens, const CeldEdgePoint *p, CeldEdgePen *
     pen->width = pens->typical_width[pen->near - 1];
 }
 
+/* Is an edge that of a speck of paper between lines, like what antialiasing leaves in an acute corner?  It has no
+ * reliable normals. */
+static bool
+is_speck (const CeldContourEdges *edges, const CeldEdgeLoop *loop)
+{
+  return loop->n <= SPECK_POINTS && loop->n < SPECK_STROKES * (size_t) edges->stroke;
+}
+
 static void
 find_loop_owners (const CeldEdgeLoop *loop, CeldContourPens *pens, float *distance)
 {
@@ -205,6 +215,8 @@ find_loop_owners (const CeldEdgeLoop *loop, CeldContourPens *pens, float *distan
   CeldEdgePen         *pen = &pens->pen[loop->first];
   size_t               unknown = 0;
 
+  if (is_speck (pens->edges, loop)) /* leaves its ink to other edges */
+    return;
   for (size_t i = 0; i < loop->n; i++)
     pen[i].owner = local_owner (pens, &point[i], &pen[i]);
   spread_owners (loop, pens, UP_TO_CORNERS, distance);

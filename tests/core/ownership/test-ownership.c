@@ -269,6 +269,38 @@ a_black_patch_keeps_its_ink (void)
   celd_free (labels.data);
 }
 
+/* A speck of paper that is left where one line meets another, as by antialiasing in an acute corner, claims nothing for
+ * the nearer region. */
+static void
+specks_of_paper_claim_no_ink (void)
+{
+  CeldPlane      ink;
+  CeldLabels     labels;
+  CeldOwnership  own;
+  const uint32_t level[3] = { 0, 1, 2 };
+
+  CHECK (celd_plane_new (60, 50, &ink) == CELD_OK && celd_labels_new (60, 50, &labels) == CELD_OK);
+  CHECK (celd_ownership_new (60, 50, &own) == CELD_OK);
+  for (int size = 1; size <= 2; size++)
+    {
+      for (int y = 0; y < 50; y++)
+        for (int x = 0; x < 60; x++)
+          {
+            bool speck = x < 30 && x >= 30 - size && y == 24;
+
+            CELD_AT (&labels, x, y) = x >= 35 ? 3 : y < 24 ? 1 : 2;
+            CELD_AT (&ink, x, y)    = !((y >= 20 && y < 30 && x < 30) || (x >= 30 && x < 40)) || speck;
+          }
+      CHECK (celd_own (&ink, &labels, level, 3, NULL, CELD_EXPANSION_OUTLINES, NULL, &own) == CELD_OK);
+      for (int y = 0; y < 50; y++)
+        for (int x = 0; x < 60; x++)
+          CHECK (x == 29 || CELD_AT (&own.owner, x, y) == (x >= 30 ? 3 : y < 20 ? 1 : 2)); /* 29: beside the crossing */
+    }
+  celd_ownership_clear (&own);
+  celd_free (ink.data);
+  celd_free (labels.data);
+}
+
 /* A line with three quarters of a pixel of ink on a bright page: the coverage of the nearer label is the ink's. */
 static void
 antialiased_pixels_have_two_labels (void)
@@ -441,6 +473,7 @@ main (void)
   RUN (ink_within_a_region_is_its_own);
   RUN (a_line_inside_keeps_its_ink_beside_an_outline);
   RUN (a_black_patch_keeps_its_ink);
+  RUN (specks_of_paper_claim_no_ink);
   RUN (antialiased_pixels_have_two_labels);
   RUN (corrections_reassign_a_piece_of_line);
   RUN (the_result_may_alias_the_labels);
