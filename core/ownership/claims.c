@@ -22,7 +22,8 @@
 #define TENTATIVE_EXCESS   1e-3f /* pixels; excess of a tentative claim inside its pen: below that of any pen that
                                   * misses the pixel */
 #define RAY_CHUNK          32    /* samples of a ray computed at a time, for vectorisation */
-#define TANGENT_WIDTHS     2.f   /* pen widths; length over which a line's direction is measured; chosen */
+#define LINE_WIDTHS        2.f   /* pen widths, besides 3 pixels, over which a line's direction is measured; chosen */
+#define END_WIDTHS         0.25f /* the same for the direction in which a side of a corner ends; chosen */
 #define MIN_TANGENT        2.f   /* pixels; shorter pieces have no reliable direction; chosen */
 #define MAX_ROUNDED_POINTS 12    /* points; a rounded corner is at most so long; chosen */
 #define MAX_LINE_WIDTHS    8.f   /* pen widths; longest continuation of a line; chosen */
@@ -190,17 +191,17 @@ next_point (const CeldEdgeLoop *loop, size_t i, int direction)
   return direction > 0 ? (i + 1) % loop->n : (i + loop->n - 1) % loop->n;
 }
 
-/* Fits a straight line to the points that lead to point i in `direction`: point i and the normal.  False if too few
- * of them have the same owner. */
+/* Fits a straight line to the points that lead to point i in `direction`, over so many pen widths: point i and the
+ * normal.  False if too few of them have the same owner. */
 static bool
-find_line (const CeldContourPens *pens, const CeldEdgeLoop *loop, size_t i, int direction, CeldRay *line)
+find_line (const CeldContourPens *pens, const CeldEdgeLoop *loop, size_t i, int direction, float widths, CeldRay *line)
 {
   const CeldEdgePoint *point = &pens->edges->point[loop->first], *p = &point[i], *q = p;
   const CeldEdgePen   *pen = &pens->pen[loop->first];
   float                along = 0, x, y, norm;
   size_t               k = i;
 
-  while (along < TANGENT_WIDTHS * pen[i].width + 3)
+  while (along < widths * pen[i].width + 3)
     {
       size_t back = next_point (loop, k, -direction);
 
@@ -228,17 +229,18 @@ line_claim (uint32_t label, const CeldRay *from, int direction, float width, flo
 /* ------------------------------------------------------------------ tips */
 
 /* The tip of the corner between the points before and after it, where the centre lines of both sides meet:
- *   in + half n + s t = out + half n' - u t', with the tangents t and t' along the loop. */
+ *   in + half n + s t = out + half n' - u t', with the tangents t and t' along the loop, over so many pen widths. */
 static size_t
-claim_tip (const CeldContourPens *pens, const CeldEdgeLoop *loop, size_t before, size_t after, CeldClaim *claim)
+find_tip (const CeldContourPens *pens, const CeldEdgeLoop *loop, size_t before, size_t after, float widths,
+          CeldClaim claim[3])
 {
   const CeldEdgePen *pen = &pens->pen[loop->first];
   uint32_t           owner = pen[before].owner;
   float              width = (pen[before].width + pen[after].width) / 2, half = width / 2, cross, x, y, s, u;
   CeldRay            in, out, tip;
 
-  if (!owner || owner != pen[after].owner || !find_line (pens, loop, before, 1, &in) ||
-      !find_line (pens, loop, after, -1, &out))
+  if (!owner || owner != pen[after].owner || !find_line (pens, loop, before, 1, widths, &in) ||
+      !find_line (pens, loop, after, -1, widths, &out))
     return 0;
   cross = in.nx * out.ny - in.ny * out.nx;
   if (!(cross > MIN_CORNER_SINE))
@@ -255,6 +257,26 @@ claim_tip (const CeldContourPens *pens, const CeldEdgeLoop *loop, size_t before,
   tip.x   += half * tip.nx;
   tip.y   += half * tip.ny;
   claim[2] = (CeldClaim) { CELD_CLAIM_DISC, owner, tip, tip, half, 0, 1, 0 };
+  return 3;
+}
+
+static float
+tip_length (const CeldClaim claim[3])
+{
+  return claim[0].length + claim[1].length;
+}
+
+/* The tip to which both sides lead as a whole, or with their ends alone if that is nearer: a line that turns within its
+ * own width leaves a sharp corner, too, between sides that are curved. */
+static size_t
+claim_tip (const CeldContourPens *pens, const CeldEdgeLoop *loop, size_t before, size_t after, CeldClaim *claim)
+{
+  CeldClaim end[3];
+
+  if (!find_tip (pens, loop, before, after, LINE_WIDTHS, claim))
+    return 0;
+  if (find_tip (pens, loop, before, after, END_WIDTHS, end) && tip_length (end) < tip_length (claim))
+    memcpy (claim, end, sizeof end);
   return 3;
 }
 
@@ -293,7 +315,7 @@ extend_line (const CeldContourPens *pens, const CeldEdgeLoop *loop, size_t i, in
     return 0;
   for (int k = 0; k < MAX_ROUNDED_POINTS && pens->edges->point[loop->first + i].corner; k++)
     i = next_point (loop, i, -direction);
-  if (pen[i].owner != owner || !find_line (pens, loop, i, direction, &line))
+  if (pen[i].owner != owner || !find_line (pens, loop, i, direction, LINE_WIDTHS, &line))
     return 0;
   *claim = line_claim (owner, &line, direction, pen[i].width, MAX_LINE_WIDTHS * pen[i].width, true);
   return 1;

@@ -154,6 +154,37 @@ side_by_side_each_has_its_line (void)
       }
 }
 
+/* ------------------------------------------------------------------ tips */
+
+/* The end of a leaf lies on the outline of a disc behind it.  Its path is curved and turns within less than the pen's
+ * width, so that its paper has a sharp corner there, whose sides as a whole meet far beyond the line. */
+static void
+a_tip_ends_where_its_line_turns (void)
+{
+  static const double exponents[] = { 0.2, 0.4, 0.8 };
+
+  for (size_t k = 0; k < sizeof exponents / sizeof *exponents; k++)
+    {
+      Blobs b;
+      Blob  disc, leaf;
+
+      blobs_new (260, 260, &b);
+      for (int i = 0; i < BLOB_CORNERS; i++)
+        {
+          double turn = 8 * atan (1) * i / BLOB_CORNERS;
+
+          disc.x[i]     = 130.3 + 50 * sin (turn);
+          disc.y[i]     = 70.2 - 50 * cos (turn);
+          leaf.x[i]     = 130.3 + 34 * sin (turn) * pow (fabs (sin (turn / 2)), exponents[k]);
+          leaf.y[i]     = 192.2 - 50 * cos (turn);
+          disc.width[i] = leaf.width[i] = 24;
+        }
+      blobs_draw (&b, &disc);
+      blobs_draw (&b, &leaf);
+      CHECK (score_sheets (&b) >= 0.985);
+    }
+}
+
 /* ------------------------------------------------------------------ known answers */
 
 /* '#' is ink, letters are paper of that label; labels in alphabetical order are from back to front. */
@@ -469,6 +500,7 @@ main (void)
   RUN (a_thin_sheet_leaves_the_outline_below_it);
   RUN (a_pen_is_measured_where_it_is_alone);
   RUN (side_by_side_each_has_its_line);
+  RUN (a_tip_ends_where_its_line_turns);
   RUN (a_contour_is_the_nearer_regions);
   RUN (ink_within_a_region_is_its_own);
   RUN (a_line_inside_keeps_its_ink_beside_an_outline);
