@@ -34,6 +34,7 @@ celd_pipeline_save_layer (const CeldPipelineLayer *layer, int width, int height,
   CeldPlane plane = { width, height, (size_t) width, g_try_malloc_n ((gsize) width * (gsize) height, sizeof (float)) };
   gboolean  good = celd_pipeline_try (plane.data ? CELD_OK : CELD_NO_MEMORY, error);
 
+  good = good && celd_pipeline_check_grey (layer, error);
   if (good)
     {
       gegl_buffer_get (layer->buffer, GEGL_RECTANGLE (-layer->x, -layer->y, width, height), 1, babl_format ("Y float"),

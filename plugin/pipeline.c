@@ -214,6 +214,7 @@ celd_pipeline_new (const CeldPipelineInput *input, GError **error)
   p->settings.far_level  = usual.far_level;
   if (celd_pipeline_try (p->session ? CELD_OK : CELD_NO_MEMORY, error) &&
       celd_pipeline_try (celd_session_set_settings (p->session, &p->settings), error) &&
+      celd_pipeline_check_layers (p, input, error) &&
       celd_pipeline_try (set_layers (p, input), error) &&
       set_relations (p, input->relations, error) &&
       set_arrow_path (p, input->arrow_path, error) &&

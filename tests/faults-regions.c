@@ -42,6 +42,21 @@ coloured_lines_step (const CeldHost *host, Results *r)
   return celd_coloured_lines (&art, CELD_INK_LINES, host, &drawing);
 }
 
+/* Without clear lines all closings are tried. */
+static CeldStatus
+clarity_step (const CeldHost *host, Results *r)
+{
+  enum { SIDE = 64 };
+  static float luma[SIDE * SIDE];
+  CeldDrawing  drawing = { .luma = { SIDE, SIDE, SIDE, luma } };
+  double       clarity;
+
+  (void) r;
+  for (int i = 0; i < SIDE * SIDE; i++)
+    luma[i] = (float) (i * i % 97) / 97;
+  return celd_line_clarity (&drawing, host, &clarity);
+}
+
 static CeldStatus
 contours_step (const CeldHost *host, Results *r)
 {
@@ -320,6 +335,7 @@ const Step region_steps[] = {
   { "ink", ink_step, NULL, true },
   { "coloured lines", coloured_lines_step, NULL, true },
   { "lines of a sprite", sprite_lines_step, NULL, true },
+  { "clarity of lines", clarity_step, NULL, true },
   { "contours", contours_step, NULL, true },
   { "scribbles", scribbles_step, NULL, true },
   { "lossy scribbles", lossy_step, NULL, true },

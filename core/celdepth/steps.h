@@ -25,6 +25,13 @@ CELD_API void celd_luma (const float *rgba, size_t n, float *luma, float *alpha)
 CELD_API CeldStatus celd_coloured_lines (const CeldPaint *art, CeldInkMode mode, const CeldHost *host,
                                          CeldDrawing *drawing);
 
+/* How clearly lines differ from paper, 0 .. 1: 1 for a blank page and for one that is too small to tell.  `drawing` is
+ * as it was painted, before celd_coloured_lines.  For hosts, which refuse photographs: below CELD_LEAST_CLARITY it is a
+ * photograph or a painting without lines, from CELD_CLEAR_LINES on a drawing, between them either. */
+#define CELD_LEAST_CLARITY 0.74 /* measured: core/image/line-clarity.c */
+#define CELD_CLEAR_LINES   0.78
+CELD_API CeldStatus celd_line_clarity (const CeldDrawing *drawing, const CeldHost *host, double *clarity);
+
 /* Makes the ink of a drawing: composites it on paper, finds its polarity (with CELD_INK_AUTO), and normalises contrast
  * by the paper around each pixel, so that uneven paper becomes 1 and grey pencil 0.  `ink` has the drawing's size and
  * must not alias it. */
@@ -37,6 +44,13 @@ CELD_API bool celd_ink_has_lines (const CeldPlane *ink);
  * changed.  `out` may alias the drawing. */
 CELD_API CeldStatus celd_contours_bake (const CeldDrawing *drawing, const CeldPaint *contours, CeldPurpose purpose,
                                         CeldInkMode mode, const CeldHost *host, CeldDrawing *out);
+
+/* Whether a layer can be scribbles: strokes in flat colours on a blank layer, or on scanned paper; no photograph can. */
+CELD_API bool celd_are_scribbles (const CeldPaint *paint);
+/* Whether a picture is grey, as inks are; whether it is strokes in several clear colours on a blank page.  If the
+ * former was given as scribbles and the latter as the drawing, they are exchanged. */
+CELD_API bool celd_is_grey (const CeldPaint *paint);
+CELD_API bool celd_is_coloured_strokes (const CeldPaint *paint);
 
 /* Reads painted scribbles: seed labels (0 where nothing is painted), and the palette of their colours, of origin
  * CELD_FROM_SCRIBBLE, by decreasing painted area.  Pixels with alpha below one half count as not painted, and in a

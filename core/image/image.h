@@ -195,8 +195,8 @@ void celd_clear_narrow_fills (CeldMask *luma, int radius, int faintest, void *wo
 CeldStatus celd_thick_lines (const CeldMask channel[3], int radius, int faintest, const CeldHost *host, void *work,
                              CeldMask *spare, CeldMask *thick);
 
-/* fill-edges.c: sets `luma` to 0 along edges between fills that meet without a line.  `strength` and `thick` are 0 where
- * there is no line, `faintest` the least contrast of one; `step` is overwritten; all have one size. */
+/* fill-edges.c: sets `luma` to 0 along edges between fills that meet without a line.  `strength` and `thick` are 0
+ * where there is no line, `faintest` is the least contrast of one; `step` is overwritten; all have one size. */
 void celd_draw_fill_edges (const CeldMask channel[3], const CeldMask *strength, const CeldMask *thick, int faintest,
                            CeldMask *step, CeldPlane *luma);
 

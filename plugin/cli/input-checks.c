@@ -8,7 +8,6 @@
 #include <math.h>
 #include <string.h>
 
-#define LEAST_HUE 0.25f /* difference of the channels of a clear colour, of 1; chosen */
 #define FAINT_HUE 0.05f /* of the channels of a picture that is not grey, of 1: more than JPEG makes; chosen */
 
 /* ------------------------------------------------------------------ the same file twice */
@@ -46,55 +45,36 @@ cli_check_different_files (const CliOptions *options)
 
 /* ------------------------------------------------------------------ drawing and scribbles exchanged */
 
-static bool
-is_grey_paint (const CeldPaint *paint)
+/* Rounds colours to bytes; free data with g_free. */
+static CeldPaint
+bytes_of (const CeldColours *picture)
 {
-  for (size_t i = 0; i < paint->stride * (size_t) paint->height; i++)
-    {
-      const uint8_t *p = paint->data + 4 * i;
+  size_t    n = 4 * picture->stride * (size_t) picture->height;
+  CeldPaint paint = { picture->width, picture->height, picture->stride, g_try_malloc (n) };
 
-      if (p[3] && (MAX (MAX (p[0], p[1]), p[2]) - MIN (MIN (p[0], p[1]), p[2]) > 255 * FAINT_HUE))
-        return false;
-    }
-  return true;
-}
-
-/* Whether a picture is strokes in several clear colours, and else blank. */
-static bool
-is_coloured_strokes (const CeldColours *picture)
-{
-  size_t n = picture->stride * (size_t) picture->height, painted = 0, clear = 0, of[6] = { 0 };
-  int    hues = 0;
-
-  for (size_t i = 0; i < n; i++)
-    {
-      const float *c = picture->data + 4 * i;
-      float        least = MIN (MIN (c[0], c[1]), c[2]), most = MAX (MAX (c[0], c[1]), c[2]);
-
-      if (c[3] < 0.5f || least > 0.9f)
-        continue;
-      painted++;
-      if (most - least < LEAST_HUE)
-        continue;
-      clear++;
-      of[(c[0] >= c[1]) + (c[1] >= c[2]) + 3 * (c[0] >= c[2])]++;
-    }
-  for (int i = 0; i < 6; i++)
-    hues += 20 * of[i] > painted;
-  return painted && 2 * painted < n && 10 * clear > 9 * painted && hues > 1;
+  for (size_t i = 0; paint.data && i < n; i++)
+    paint.data[i] = (uint8_t) (255 * CLAMP (picture->data[i], 0, 1) + 0.5f);
+  return paint;
 }
 
 bool
 cli_check_not_exchanged (const CliOptions *options, CliLayers *layers)
 {
   CeldColours picture = { 0 };
+  CeldPaint   paint = { 0 };
   bool        good, exchanged;
 
-  if (!layers->scribbles.data || !options->scribbles || !is_grey_paint (&layers->scribbles))
+  if (!layers->scribbles.data || !options->scribbles || !celd_is_grey (&layers->scribbles))
     return true;
-  good      = cli_art_read (options->input, NULL, false, layers, &picture);
-  exchanged = good && is_coloured_strokes (&picture);
+  good = cli_art_read (options->input, NULL, false, layers, &picture);
+  if (good)
+    {
+      paint = bytes_of (&picture);
+      good = cli_check (paint.data ? CELD_OK : CELD_NO_MEMORY);
+    }
+  exchanged = good && celd_is_coloured_strokes (&paint);
   g_free (picture.data);
+  g_free (paint.data);
   return good && (!exchanged ||
                   cli_error ("\"%s\" looks like scribbles and \"%s\" like a drawing: exchange them, or scribble in clear "
                              "colours.", options->input, options->scribbles));

@@ -4,7 +4,7 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "core-page.h"
-#include "pipeline.h"
+#include "pipeline-parts.h"
 
 #define BIT(picture) (1u << CELD_PICTURE_##picture)
 
@@ -288,6 +288,58 @@ input_without_sense_is_refused (void)
   g_object_unref (page);
 }
 
+/* A surface in all greys, other ones in other channels. */
+static float
+surface_at (int i, int channel)
+{
+  double x = i % WIDTH, y = i / WIDTH, sum = 0;
+
+  for (int k = 1; k <= 24; k++)
+    sum += sin (0.2 * k * (x * cos (2.4 * k) + y * sin (2.4 * k)) + (1 + channel) * k * k) / sqrt (k);
+  return (float) (0.5 + 0.12 * sum);
+}
+
+static void
+other_layers_than_meant_are_refused (void)
+{
+  static float      grey[PIXELS], colour[3 * PIXELS];
+  CeldPipelineInput input = page_input ();
+  GeglBuffer       *surface, *photograph;
+
+  for (int i = 0; i < 3 * PIXELS; i++)
+    {
+      colour[i] = surface_at (i / 3, i % 3);
+      grey[i / 3] = surface_at (i / 3, 0);
+    }
+  surface = page_buffer ("Y' u8", "Y' float", grey);
+  photograph = page_buffer ("R'G'B' u8", "R'G'B' float", colour);
+  input.layer[CELD_LAYER_DRAWING].buffer = surface;
+  CHECK (refused (&input, "the drawing looks like a photograph"));
+  input.settings.ink = CELD_INK_DARK; /* who says what the lines are is believed */
+  CHECK (!refused (&input, "photograph"));
+  input = page_input ();
+  input.layer[CELD_LAYER_SCRIBBLES].buffer = photograph;
+  CHECK (refused (&input, "the scribbles looks like a photograph"));
+  input.layer[CELD_LAYER_DRAWING].buffer = scribbles;
+  input.layer[CELD_LAYER_SCRIBBLES].buffer = drawing;
+  CHECK (refused (&input, "Exchange them"));
+  g_object_unref (surface);
+  g_object_unref (photograph);
+}
+
+/* A layer in colours is no depth. */
+static void
+only_grey_layers_are_depth (void)
+{
+  CeldPipelineLayer painted = { scribbles, 0, 0 }, drawn = { drawing, 0, 0 };
+  GError           *error = NULL;
+
+  CHECK (!celd_pipeline_check_grey (&painted, &error));
+  CHECK (error && strstr (error->message, "in colour"));
+  g_clear_error (&error);
+  CHECK (celd_pipeline_check_grey (&drawn, &error) && !error);
+}
+
 static void
 problems_are_told (void)
 {
@@ -324,6 +376,8 @@ main (void)
   RUN (views_are_those_of_two_eyes);
   RUN (layers_are_the_drawing_again);
   RUN (input_without_sense_is_refused);
+  RUN (other_layers_than_meant_are_refused);
+  RUN (only_grey_layers_are_depth);
   RUN (problems_are_told);
   drop_page ();
   celd_palette_clear (&palette);

@@ -311,7 +311,11 @@ edges_without_lines_are_drawn (void)
             if (inside (x, y, 125, 100, 42) && x + y > 225)
               put (x, y, turn ? (Tone) { 0.2f, 0.6f, 0.3f } : brown);
             if (y >= 155) /* 10 of 255 a pixel, and grain */
-              put (x, y, mixed (blue, yellow, (float) (x < 60 ? 0 : x < 78 ? x - 60 : 18) / 20 + (float) (seed >> 29) / 255));
+              {
+                float slope = (float) (x < 60 ? 0 : x < 78 ? x - 60 : 18) / 20;
+
+                put (x, y, mixed (blue, yellow, slope + (float) (seed >> 29) / 255));
+              }
           }
       CHECK (find (CELD_INK_LINES, NULL) == CELD_OK);
       for (int y = 95; y < 110; y++) /* across the edge at x = 225 - y, far from tips, which are lines */

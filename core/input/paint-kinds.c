@@ -1,0 +1,115 @@
+/* Layers that are something else than they were given for: a photograph in place of scribbles, drawing and scribbles
+ * exchanged.
+ *
+ * Scribbles are told by their flat colours: neighbours that are equal are 0.88 of all pixels at least, in a photograph
+ * less than 0.36; or if they are scanned by their blank page.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "input/input.h"
+
+#include <string.h>
+
+#define TELLING_SIDE  64   /* pixels; smaller pictures tell too little; chosen */
+#define LEAST_FLAT  0.5  /* the share of equal neighbours in scribbles, at least (measured, see above) */
+#define LEAST_BLANK 0.6  /* the share of the commonest colour in scribbles on scanned paper, at least; chosen */
+#define CLEAR_HUE   64   /* of 255: difference of the channels of a clear colour; chosen */
+#define FAINT_HUE   12   /* of 255: of what is not grey, more than JPEG makes; chosen */
+#define WHITE       230  /* of 255: channels of paper are larger; chosen */
+
+/* ------------------------------------------------------------------ a photograph */
+
+/* Whether two pixels R,G,B,A look alike. */
+static bool
+are_equal (const uint8_t *p, const uint8_t *q)
+{
+  return (!p[3] && !q[3]) || !memcmp (p, q, 4);
+}
+
+/* The share of pixels that equal those to the right and below. */
+static double
+flat_share (const CeldPaint *paint)
+{
+  size_t flat = 0;
+
+  for (int y = 0; y + 1 < paint->height; y++)
+    for (int x = 0; x + 1 < paint->width; x++)
+      {
+        const uint8_t *p = CELD_RGBA (paint, x, y);
+
+        flat += are_equal (p, p + 4) && are_equal (p, p + 4 * paint->stride);
+      }
+  return (double) flat / ((double) (paint->width - 1) * (paint->height - 1));
+}
+
+/* The share of the commonest colour, of 8 steps a channel. */
+static double
+blank_share (const CeldPaint *paint)
+{
+  size_t count[512] = { 0 }, most = 0;
+
+  for (int y = 0; y < paint->height; y++)
+    for (int x = 0; x < paint->width; x++)
+      {
+        const uint8_t *p = CELD_RGBA (paint, x, y);
+        size_t        *of = &count[p[3] ? (p[0] >> 5) << 6 | (p[1] >> 5) << 3 | p[2] >> 5 : 511];
+
+        most = ++*of > most ? *of : most;
+      }
+  return (double) most / ((double) paint->width * paint->height);
+}
+
+bool
+celd_are_scribbles (const CeldPaint *paint)
+{
+  return paint->width < TELLING_SIDE || paint->height < TELLING_SIDE || flat_share (paint) >= LEAST_FLAT ||
+         blank_share (paint) >= LEAST_BLANK;
+}
+
+/* ------------------------------------------------------------------ drawing and scribbles exchanged */
+
+/* The difference of the largest and the least channel. */
+static int
+hue_of (const uint8_t *p)
+{
+  int most = p[0] > p[1] ? p[0] : p[1], least = p[0] < p[1] ? p[0] : p[1];
+
+  most = p[2] > most ? p[2] : most;
+  least = p[2] < least ? p[2] : least;
+  return most - least;
+}
+
+bool
+celd_is_grey (const CeldPaint *paint)
+{
+  for (int y = 0; y < paint->height; y++)
+    for (int x = 0; x < paint->width; x++)
+      if (CELD_RGBA (paint, x, y)[3] && hue_of (CELD_RGBA (paint, x, y)) > FAINT_HUE)
+        return false;
+  return true;
+}
+
+bool
+celd_is_coloured_strokes (const CeldPaint *paint)
+{
+  size_t painted = 0, clear = 0, of[6] = { 0 };
+  size_t all = (size_t) paint->width * (size_t) paint->height;
+  int    hues = 0;
+
+  for (int y = 0; y < paint->height; y++)
+    for (int x = 0; x < paint->width; x++)
+      {
+        const uint8_t *p = CELD_RGBA (paint, x, y);
+
+        if (p[3] < 128 || (p[0] > WHITE && p[1] > WHITE && p[2] > WHITE))
+          continue;
+        painted++;
+        if (hue_of (p) < CLEAR_HUE)
+          continue;
+        clear++;
+        of[(p[0] >= p[1]) + (p[1] >= p[2]) + 3 * (p[0] >= p[2])]++;
+      }
+  for (int i = 0; i < 6; i++)
+    hues += 20 * of[i] > painted;
+  return painted && 2 * painted < all && 10 * clear > 9 * painted && hues > 1;
+}

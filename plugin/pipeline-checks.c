@@ -1,0 +1,107 @@
+/* Layers that are something else than they were chosen for.  Each is refused, with a sentence that says what to do.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "pipeline-parts.h"
+
+#include "buffers.h"
+
+#define FAINT_HUE 12 /* of 255: of a picture that is not grey, more than compression makes; chosen */
+
+static GeglRectangle
+image_rectangle (const CeldPipelineInput *input, const CeldPipelineLayer *layer)
+{
+  return (GeglRectangle) { -layer->x, -layer->y, input->width, input->height };
+}
+
+static CeldStatus
+read_paint (const CeldPipeline *p, const CeldPipelineInput *input, CeldLayerRole role, CeldPaint *paint)
+{
+  GeglRectangle rect = image_rectangle (input, &input->layer[role]);
+
+  *paint = celd_pipeline_new_paint (p);
+  if (!paint->data)
+    return CELD_NO_MEMORY;
+  celd_buffer_read_paint (input->layer[role].buffer, &rect, paint);
+  return CELD_OK;
+}
+
+static gboolean
+check_scribbles (const CeldPipeline *p, const CeldPipelineInput *input, GError **error)
+{
+  CeldPaint drawing = { 0 }, scribbles = { 0 };
+  gboolean  good = celd_pipeline_try (read_paint (p, input, CELD_LAYER_SCRIBBLES, &scribbles), error);
+
+  if (good && !celd_are_scribbles (&scribbles))
+    good = celd_pipeline_fail (error, "The layer with the scribbles looks like a photograph: scribbles are strokes in "
+                               "flat colours on a blank layer. Choose another layer.");
+  if (good && celd_is_grey (&scribbles))
+    good = celd_pipeline_try (read_paint (p, input, CELD_LAYER_DRAWING, &drawing), error);
+  if (good && drawing.data && celd_is_coloured_strokes (&drawing))
+    good = celd_pipeline_fail (error, "The layer chosen as the drawing looks like scribbles, and the one chosen as "
+                               "scribbles like a drawing. Exchange them, or scribble in clear colours.");
+  g_free (drawing.data);
+  g_free (scribbles.data);
+  return good;
+}
+
+/* The drawing as it is, not the lines of a coloured one. */
+static gboolean
+check_drawing (const CeldPipeline *p, const CeldPipelineInput *input, GError **error)
+{
+  const CeldPipelineLayer *layer = &input->layer[CELD_LAYER_DRAWING];
+  GeglRectangle            rect = image_rectangle (input, layer);
+  gboolean                 alpha = celd_buffer_has_alpha (layer->buffer);
+  CeldHost                 host = { NULL, celd_gegl_each, NULL };
+  CeldDrawing              drawing = { .luma = celd_pipeline_new_plane (p) };
+  double                   clarity = 1;
+  CeldStatus               status = CELD_NO_MEMORY;
+
+  if (alpha)
+    drawing.alpha = celd_pipeline_new_plane (p);
+  if (drawing.luma.data && (!alpha || drawing.alpha.data))
+    status = celd_buffer_read_drawing (layer->buffer, &rect, CELD_INK_DARK, &host, &drawing);
+  if (status == CELD_OK)
+    status = celd_line_clarity (&drawing, &host, &clarity);
+  g_free (drawing.luma.data);
+  g_free (drawing.alpha.data);
+  return celd_pipeline_try (status, error) &&
+         (clarity >= CELD_LEAST_CLARITY ||
+          celd_pipeline_fail (error, "The layer with the drawing looks like a photograph or a painting without lines. "
+                              "If it is a drawing, say with the setting 'Ink' what its lines are."));
+}
+
+gboolean
+celd_pipeline_check_layers (const CeldPipeline *p, const CeldPipelineInput *input, GError **error)
+{
+  if (p->settings.flats)
+    return TRUE;
+  return (!input->layer[CELD_LAYER_SCRIBBLES].buffer || check_scribbles (p, input, error)) &&
+         (p->settings.ink != CELD_INK_AUTO || check_drawing (p, input, error));
+}
+
+/* Whether more than a hundredth of the layer is in colour. */
+static gboolean
+has_hue (GeglBuffer *buffer)
+{
+  const GeglRectangle *extent = gegl_buffer_get_extent (buffer);
+  GeglRectangle        row = { extent->x, extent->y, extent->width, 1 };
+  guint8              *rgba = g_new (guint8, 4 * (gsize) row.width);
+  gsize                hued = 0;
+
+  for (; row.y < extent->y + extent->height; row.y++)
+    {
+      gegl_buffer_get (buffer, &row, 1, babl_format ("R'G'B'A u8"), rgba, GEGL_AUTO_ROWSTRIDE, GEGL_ABYSS_NONE);
+      for (const guint8 *p = rgba; p < rgba + 4 * (gsize) row.width; p += 4)
+        hued += p[3] && MAX (MAX (p[0], p[1]), p[2]) - MIN (MIN (p[0], p[1]), p[2]) > FAINT_HUE;
+    }
+  g_free (rgba);
+  return 100 * hued > (gsize) extent->width * (gsize) extent->height;
+}
+
+gboolean
+celd_pipeline_check_grey (const CeldPipelineLayer *layer, GError **error)
+{
+  return !has_hue (layer->buffer) ||
+         celd_pipeline_fail (error, "The layer is in colour: depth is grey. Choose a layer with depth or levels.");
+}
