@@ -4,6 +4,7 @@
  *   scribble-loss.c      finds thin strokes whose chroma a codec has smeared
  *   scribble-unmix.c     what colours these strokes had
  *   scribble-clusters.c  which colours are labels
+ *   scribble-overlaps.c  which are only the overlap of two translucent strokes
  *   scribble-places.c    which pixels each label has
  *   scribbles.c          all steps of reading scribbles: fringes, and the palette
  *   contours.c           virtual contours painted into a drawing
@@ -107,7 +108,7 @@ CeldStatus celd_scribble_clusters (CeldScribbleLayer *r, const CeldHost *host);
 /* gradients.c: makes each gradient of a flat colouring one colour; needs the colours, and overwrites label and kind. */
 CeldStatus celd_scribble_gradients (CeldScribbleLayer *r);
 
-/* scribble-clusters.c: clusters that occur only where two translucent strokes overlap are labels no longer. */
+/* scribble-overlaps.c: clusters that occur only where two translucent strokes overlap are labels no longer. */
 CeldStatus celd_scribble_overlaps (CeldScribbleLayer *r);
 
 /* scribble-clusters.c: appends a cluster of one colour. */
