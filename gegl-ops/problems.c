@@ -6,22 +6,29 @@
 
 #define MOST_PROBLEMS 8 /* in one message (chosen) */
 
+char *
+celd_problem_line (const CeldProblem *problem, const CeldPalette *palette, const CeldRelations *relations,
+                   const CeldOrder *order)
+{
+  char text[400], cycle[400];
+
+  celd_problem_text (problem, palette, relations, text, sizeof text);
+  if (problem->kind != CELD_PROBLEM_CONTRADICTION || !order || problem->other >= order->n_cycles)
+    return g_strdup (text);
+  celd_cycle_text (&order->cycle[problem->other], relations, cycle, sizeof cycle);
+  return g_strconcat (text, " ", cycle, NULL);
+}
+
 void
 celd_problems_append (GString *message, const CeldProblems *problems, const CeldPalette *palette,
                       const CeldRelations *relations, const CeldOrder *order)
 {
   for (size_t i = 0; problems && i < MIN (problems->n, MOST_PROBLEMS); i++)
     {
-      const CeldProblem *problem = &problems->item[i];
-      char               text[400];
+      char *line = celd_problem_line (&problems->item[i], palette, relations, order);
 
-      celd_problem_text (problem, palette, relations, text, sizeof text);
-      g_string_append_printf (message, "%s%s", message->len ? "\n" : "", text);
-      if (problem->kind == CELD_PROBLEM_CONTRADICTION && order && problem->other < order->n_cycles)
-        {
-          celd_cycle_text (&order->cycle[problem->other], relations, text, sizeof text);
-          g_string_append_printf (message, " %s", text);
-        }
+      g_string_append_printf (message, "%s%s", message->len ? "\n" : "", line);
+      g_free (line);
     }
   if (problems && problems->n > MOST_PROBLEMS)
     g_string_append_printf (message, "\nThere are %" G_GSIZE_FORMAT " more messages.", problems->n - MOST_PROBLEMS);

@@ -9,8 +9,12 @@
 
 #include "celdepth.h"
 
-/* Appends a line for each of the first problems, and how many more there are.  `order` has the cycles of
- * contradictions; it, the palette and the relations may be NULL. */
+/* What is wrong, where and what to do, of a contradiction also with what else is in it; to be freed.  `order` has the
+ * cycles of contradictions; it, the palette and the relations may be NULL. */
+char *celd_problem_line (const CeldProblem *problem, const CeldPalette *palette, const CeldRelations *relations,
+                         const CeldOrder *order);
+
+/* Appends a line for each of the first problems, and how many more there are. */
 void celd_problems_append (GString *message, const CeldProblems *problems, const CeldPalette *palette,
                            const CeldRelations *relations, const CeldOrder *order);
 

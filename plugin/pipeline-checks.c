@@ -72,12 +72,14 @@ check_drawing (const CeldPipeline *p, const CeldPipelineInput *input, GError **e
 }
 
 gboolean
-celd_pipeline_check_layers (const CeldPipeline *p, const CeldPipelineInput *input, GError **error)
+celd_pipeline_check_layers (const CeldPipeline *p, const CeldPipelineInput *input, guint layers, GError **error)
 {
+  gboolean scribbles = layers & 1u << CELD_LAYER_SCRIBBLES && input->layer[CELD_LAYER_SCRIBBLES].buffer;
+  gboolean drawing = layers & 1u << CELD_LAYER_DRAWING && p->settings.ink == CELD_INK_AUTO;
+
   if (p->settings.flats)
     return TRUE;
-  return (!input->layer[CELD_LAYER_SCRIBBLES].buffer || check_scribbles (p, input, error)) &&
-         (p->settings.ink != CELD_INK_AUTO || check_drawing (p, input, error));
+  return (!scribbles || check_scribbles (p, input, error)) && (!drawing || check_drawing (p, input, error));
 }
 
 /* Whether more than a hundredth of the layer is in colour. */

@@ -45,8 +45,10 @@ bool celd_pipeline_report (void *report, double done);
 /* The same for steps that have progress of their own; a CeldPipelineProgress. */
 gboolean celd_pipeline_report_steps (gpointer report, double done, const char *step);
 
-/* TRUE unless scribbles or the drawing are a photograph, or exchanged; else *error has a sentence for the artist. */
-gboolean celd_pipeline_check_layers (const CeldPipeline *p, const CeldPipelineInput *input, GError **error);
+/* TRUE unless scribbles or the drawing are a photograph, or exchanged; else *error has a sentence for the artist.  Of
+ * these two, those are examined that are among `layers`, as bits. */
+gboolean celd_pipeline_check_layers (const CeldPipeline *p, const CeldPipelineInput *input, guint layers,
+                                     GError **error);
 /* TRUE if a layer can be depth or levels, which are grey. */
 gboolean celd_pipeline_check_grey (const CeldPipelineLayer *layer, GError **error);
 

@@ -107,6 +107,21 @@ celd_pipeline_write (CeldPipeline *p, CeldPicture picture, GeglBuffer *buffer, G
   return celd_pipeline_try (write_picture (p, picture, buffer), error);
 }
 
+gboolean
+celd_pipeline_write_preview (CeldPipeline *p, CeldPipelineProgress progress, gpointer data, GeglBuffer *buffer,
+                             GError **error)
+{
+  CeldPipelineReport r = { progress, data, "Previewing depth", 0, 1 };
+  CeldHost           host = { celd_pipeline_report, celd_gegl_each, &r };
+  CeldPlane          quarter;
+  CeldStatus         status = celd_session_depth_preview (p->session, &host, &quarter, NULL);
+
+  if (status == CELD_OK)
+    gegl_buffer_set (buffer, GEGL_RECTANGLE (0, 0, quarter.width, quarter.height), 0, babl_format ("Y float"),
+                     quarter.data, (int) (quarter.stride * sizeof (float)));
+  return celd_pipeline_try (status, error);
+}
+
 /* ------------------------------------------------------------------ layers */
 
 #define BEFORE_CUTTING 0.8 /* of the time of cutting with all before it; chosen */
@@ -190,4 +205,31 @@ celd_pipeline_problems (CeldPipeline *p)
   if (p->note)
     g_string_append_printf (message, "%s%s", message->len ? "\n" : "", p->note);
   return g_string_free (message, message->len == 0);
+}
+
+static void
+clear_problem (gpointer problem)
+{
+  g_free (((CeldPipelineProblem *) problem)->text);
+}
+
+GArray *
+celd_pipeline_problem_list (CeldPipeline *p)
+{
+  GArray              *list = g_array_new (FALSE, FALSE, sizeof (CeldPipelineProblem));
+  const CeldProblems  *problems = celd_session_problems (p->session);
+  const CeldRelations *relations = celd_session_relations (p->session);
+
+  g_array_set_clear_func (list, clear_problem);
+  for (size_t i = 0; problems && i < problems->n; i++)
+    {
+      const CeldProblem  *problem = &problems->item[i];
+      CeldPipelineProblem told = { NULL, problem->x, problem->y };
+
+      told.text = celd_problem_line (problem, celd_session_palette (p->session), relations, p->order);
+      g_array_append_val (list, told);
+    }
+  if (p->note)
+    g_array_append_val (list, ((CeldPipelineProblem) { g_strdup (p->note), -1, -1 }));
+  return list;
 }

@@ -107,6 +107,7 @@ set_drawing (CeldPipeline *p, const CeldPipelineLayer *layer)
 
   if (alpha)
     drawing.alpha = celd_pipeline_new_plane (p);
+  g_free (p->art.data);
   p->art = celd_pipeline_new_colours (p);
   if (drawing.luma.data && (!alpha || drawing.alpha.data) && p->art.data)
     status = celd_buffer_read_drawing (layer->buffer, &rect, p->settings.ink, &host, &drawing);
@@ -137,22 +138,24 @@ set_layer (CeldPipeline *p, const CeldPipelineLayer *layer,
   return status;
 }
 
-/* With `flats` a coloured drawing has its regions itself. */
+/* Those of the layers, as bits.  With `flats` a coloured drawing has its regions itself. */
 static CeldStatus
-set_layers (CeldPipeline *p, const CeldPipelineInput *input)
+set_layers (CeldPipeline *p, const CeldPipelineInput *input, guint layers)
 {
   static CeldStatus (*const set[CELD_N_LAYERS]) (CeldSession *session, const CeldPaint *paint) = {
     [CELD_LAYER_SCRIBBLES]   = celd_session_set_scribbles,   [CELD_LAYER_ARROWS] = celd_session_set_arrows,
     [CELD_LAYER_CONTOURS]    = celd_session_set_contours,
     [CELD_LAYER_CORRECTIONS] = celd_session_set_corrections, [CELD_LAYER_HIDDEN] = celd_session_set_hidden,
   };
-  CeldStatus status = set_drawing (p, &input->layer[CELD_LAYER_DRAWING]);
+  CeldStatus status = CELD_OK;
 
+  if (layers & 1u << CELD_LAYER_DRAWING)
+    status = set_drawing (p, &input->layer[CELD_LAYER_DRAWING]);
   for (int role = CELD_LAYER_SCRIBBLES; role < CELD_N_LAYERS && status == CELD_OK; role++)
-    if (input->layer[role].buffer)
-      status = set_layer (p, &input->layer[role], set[role]);
-    else if (role == CELD_LAYER_SCRIBBLES && p->settings.flats)
+    if (role == CELD_LAYER_SCRIBBLES && !input->layer[role].buffer && p->settings.flats)
       status = set_layer (p, &input->layer[CELD_LAYER_DRAWING], set[role]);
+    else if (layers & 1u << role)
+      status = input->layer[role].buffer ? set_layer (p, &input->layer[role], set[role]) : set[role] (p->session, NULL);
   return status;
 }
 
@@ -196,29 +199,47 @@ check_lines (CeldPipeline *p, GError **error)
                               "faint. Choose another layer, or another setting of 'Ink'."));
 }
 
-CeldPipeline *
-celd_pipeline_new (const CeldPipelineInput *input, GError **error)
+/* Levels are in [0,1] whatever their encoding says. */
+static CeldStatus
+set_settings (CeldPipeline *p, const CeldSettings *settings)
 {
-  CeldSettings  usual = celd_settings ();
-  CeldPipeline *p;
+  CeldSettings usual = celd_settings ();
 
-  if (!check_input (input, error))
-    return NULL;
-  p = g_new0 (CeldPipeline, 1);
-  p->session  = celd_session_new ();
-  p->settings = input->settings;
-  p->width    = input->width;
-  p->height   = input->height;
+  p->settings            = *settings;
   p->settings.encoding   = usual.encoding;
   p->settings.near_level = usual.near_level;
   p->settings.far_level  = usual.far_level;
+  return celd_session_set_settings (p->session, &p->settings);
+}
+
+/* How a drawing is read depends on the settings. */
+gboolean
+celd_pipeline_update (CeldPipeline *p, const CeldPipelineInput *input, guint layers, GError **error)
+{
+  if (input->settings.ink != p->settings.ink)
+    layers |= 1u << CELD_LAYER_DRAWING;
+  if (input->settings.flats != p->settings.flats)
+    layers |= 1u << CELD_LAYER_SCRIBBLES;
+  return check_input (input, error) &&
+         celd_pipeline_try (input->width == p->width && input->height == p->height ? CELD_OK : CELD_BAD_SIZE, error) &&
+         celd_pipeline_try (set_settings (p, &input->settings), error) &&
+         celd_pipeline_check_layers (p, input, layers, error) &&
+         celd_pipeline_try (set_layers (p, input, layers), error) &&
+         set_relations (p, input->relations, error) &&
+         set_arrow_path (p, input->arrow_path, error) &&
+         check_lines (p, error);
+}
+
+CeldPipeline *
+celd_pipeline_new (const CeldPipelineInput *input, GError **error)
+{
+  CeldPipeline *p = g_new0 (CeldPipeline, 1);
+
+  p->session = celd_session_new ();
+  p->width   = input->width;
+  p->height  = input->height;
   if (celd_pipeline_try (p->session ? CELD_OK : CELD_NO_MEMORY, error) &&
-      celd_pipeline_try (celd_session_set_settings (p->session, &p->settings), error) &&
-      celd_pipeline_check_layers (p, input, error) &&
-      celd_pipeline_try (set_layers (p, input), error) &&
-      set_relations (p, input->relations, error) &&
-      set_arrow_path (p, input->arrow_path, error) &&
-      check_lines (p, error))
+      celd_pipeline_update (p, input, ~0u, error))
     return p;
   celd_pipeline_free (p);
   return NULL;

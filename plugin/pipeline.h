@@ -52,6 +52,11 @@ typedef struct CeldPipeline CeldPipeline;
 CeldPipeline *celd_pipeline_new  (const CeldPipelineInput *input, GError **error);
 void          celd_pipeline_free (CeldPipeline *pipeline); /* accepts NULL */
 
+/* Reads an image of the same size again: all but the layers, and of these the ones whose bits 1 << CELD_LAYER_... are
+ * in `layers`.  What has been made is kept as far as nothing that it depends on is another.  After a failure the
+ * pipeline can only be freed. */
+gboolean celd_pipeline_update (CeldPipeline *pipeline, const CeldPipelineInput *input, guint layers, GError **error);
+
 /* Is called with the fraction that is done, which never decreases, and a name of the step; FALSE cancels. */
 typedef gboolean (*CeldPipelineProgress) (gpointer data, double done, const char *step);
 
@@ -61,6 +66,11 @@ gboolean celd_pipeline_make (CeldPipeline *pipeline, guint wanted, CeldPipelineP
 
 /* Writes a picture that was made into a buffer, from its pixel 0,0 on, in whatever format that has. */
 gboolean celd_pipeline_write (CeldPipeline *pipeline, CeldPicture picture, GeglBuffer *buffer, GError **error);
+
+/* Makes a preview of depth, which takes less time than depth, and writes it into a buffer of (width + 3) / 4 x (height
+ * + 3) / 4 pixels, each of which stands for 4 x 4 pixels of the image; see celd_session_depth_preview. */
+gboolean celd_pipeline_write_preview (CeldPipeline *pipeline, CeldPipelineProgress progress, gpointer data,
+                                      GeglBuffer *buffer, GError **error);
 
 /* Cuts the drawing into a layer for each region, from the back to the front, composited in linear light.  With
  * settings.complete layers have what nearer ones hide.  `bits` of 8 or less round colours so that 8 bits are exact. */
@@ -89,5 +99,9 @@ gboolean celd_pipeline_save_model (CeldPipeline *pipeline, const char *path, Cel
 
 /* What the artist should know of what was made, a line for each problem; NULL: nothing.  Free it. */
 char *celd_pipeline_problems (CeldPipeline *pipeline);
+
+/* The same one by one, all of them, with places: CeldPipelineProblem, whose texts are freed with the array. */
+typedef struct { char *text; int x, y; } CeldPipelineProblem; /* x -1: it has no place */
+GArray *celd_pipeline_problem_list (CeldPipeline *pipeline);
 
 #endif

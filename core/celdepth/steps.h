@@ -47,7 +47,7 @@ CELD_API CeldStatus celd_contours_bake (const CeldDrawing *drawing, const CeldPa
 
 /* Whether a layer can be scribbles: strokes in flat colours on a blank layer, or on scanned paper; no photograph can. */
 CELD_API bool celd_are_scribbles (const CeldPaint *paint);
-/* Whether a picture is grey, as inks are; whether it is strokes in several clear colours on a blank page.  If the
+/* Whether a picture that is not empty is grey, as inks are; whether it is strokes in several clear colours on a blank page.  If the
  * former was given as scribbles and the latter as the drawing, they are exchanged. */
 CELD_API bool celd_is_grey (const CeldPaint *paint);
 CELD_API bool celd_is_coloured_strokes (const CeldPaint *paint);

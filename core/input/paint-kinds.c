@@ -82,11 +82,17 @@ hue_of (const uint8_t *p)
 bool
 celd_is_grey (const CeldPaint *paint)
 {
+  bool painted = false;
+
   for (int y = 0; y < paint->height; y++)
     for (int x = 0; x < paint->width; x++)
-      if (CELD_RGBA (paint, x, y)[3] && hue_of (CELD_RGBA (paint, x, y)) > FAINT_HUE)
-        return false;
-  return true;
+      if (CELD_RGBA (paint, x, y)[3])
+        {
+          painted = true;
+          if (hue_of (CELD_RGBA (paint, x, y)) > FAINT_HUE)
+            return false;
+        }
+  return painted;
 }
 
 bool

@@ -95,6 +95,8 @@ grey_pictures (void)
   CHECK (celd_is_grey (&paint));
   put (50, 50, 200, 30, 30, 255);
   CHECK (!celd_is_grey (&paint));
+  draw_strokes (inks, 0, 0);
+  CHECK (!celd_is_grey (&paint)); /* nothing has been painted yet */
 }
 
 /* Fills all over the page are no strokes. */
