@@ -16,6 +16,7 @@
  *   export.c     Export depth
  *   mesh.c       Relief mesh
  *   setup.c      Set up layers
+ *   live*.c      Live; live.h lists them
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -51,7 +52,17 @@ struct CeldProcedure
 };
 
 extern const CeldProcedure celd_popup_procedure, celd_setup_procedure, celd_split_procedure, celd_suggest_procedure,
-  celd_stereo_procedure, celd_group_procedure, celd_export_procedure, celd_mesh_procedure;
+  celd_stereo_procedure, celd_export_procedure, celd_mesh_procedure, celd_live_procedure,
+  celd_group_procedure;
+
+/* ------------------------------------------------------------------ paths.c */
+
+/* The arrows of all paths named Arrows: as SVG path data, to be freed; how many, and how many strokes are none. */
+typedef struct { char *data; int n, left_out; } CeldPathArrows;
+CeldPathArrows celd_paths_read (GimpImage *image);
+
+/* What to say of n strokes that are no arrows; to be freed. */
+char *celd_paths_left_out_text (int n);
 
 /* ------------------------------------------------------------------ run.c */
 
@@ -60,8 +71,10 @@ extern const CeldProcedure celd_popup_procedure, celd_setup_procedure, celd_spli
 GimpValueArray *celd_run (GimpProcedure *procedure, GimpRunMode run_mode, GimpImage *image, GimpDrawable **drawables,
                           GimpProcedureConfig *config, gpointer run_data);
 
-/* Whether the image has colours, and no floating selection; if not, with *error. */
-gboolean celd_image_check (GimpImage *image, GError **error);
+/* Whether this kind of image can be used, and whether there are the layers and arrows that are needed; *error is a
+ * sentence for the artist. */
+gboolean celd_image_check  (GimpImage *image, GError **error);
+gboolean celd_layers_check (GimpLayer *const layer[CELD_N_LAYERS], const CeldPathArrows *paths, GError **error);
 
 /* ------------------------------------------------------------------ layers.c */
 
@@ -89,12 +102,6 @@ gboolean celd_layers_open  (GimpImage *image, GimpLayer *const layer[CELD_N_LAYE
                             GError **error);
 void     celd_layers_close (CeldPipelineInput *input);
 
-/* ------------------------------------------------------------------ paths.c */
-
-/* The arrows of all paths named Arrows: as SVG path data, to be freed; how many, and how many strokes are none. */
-typedef struct { char *data; int n, left_out; } CeldPathArrows;
-CeldPathArrows celd_paths_read (GimpImage *image);
-
 /* ------------------------------------------------------------------ files.c */
 
 /* Set the argument "file" to the one that was remembered, or one beside the image's own; and remember it. */
@@ -112,7 +119,7 @@ char *celd_file_chosen (GimpProcedureConfig *config, gboolean (*can_write) (cons
 enum
 {
   CELD_FOR_POPUP = 1, CELD_FOR_SPLIT = 2, CELD_FOR_SUGGEST = 4, CELD_FOR_STEREO = 8, CELD_FOR_EXPORT = 16,
-  CELD_FOR_MESH = 32
+  CELD_FOR_MESH = 32, CELD_FOR_LIVE = 64
 };
 void     celd_settings_add_arguments (GimpProcedure *procedure, guint whose);
 void     celd_file_add_argument      (GimpProcedure *procedure, const char *help); /* "file" */
@@ -164,6 +171,9 @@ void         celd_selection_restore (GimpImage *image, GimpChannel *selection);
 
 /* The layer with this mark in a group of results; NULL: there is none. */
 GimpLayer *celd_results_find (GimpImage *image, const char *mark);
+
+/* The same if its pixels may be written: neither they nor those of its group are locked. */
+GimpLayer *celd_results_find_unlocked (GimpImage *image, const char *mark);
 
 /* ------------------------------------------------------------------ dialog.c */
 

@@ -8,7 +8,7 @@
 
 static const CeldProcedure *const procedures[] = {
   &celd_setup_procedure, &celd_popup_procedure, &celd_split_procedure, &celd_suggest_procedure, &celd_stereo_procedure,
-  &celd_group_procedure, &celd_export_procedure, &celd_mesh_procedure,
+  &celd_group_procedure, &celd_export_procedure, &celd_mesh_procedure, &celd_live_procedure,
 };
 
 typedef struct { GimpPlugIn parent_instance; } CeldPlugIn;

@@ -85,3 +85,10 @@ celd_paths_read (GimpImage *image)
   arrows.data = g_string_free (data, FALSE);
   return arrows;
 }
+
+char *
+celd_paths_left_out_text (int n)
+{
+  return g_strdup_printf (_ ("Strokes of the path Arrows that are no arrows were left out: %d. They are closed, or "
+                             "have one point. An arrow goes from its first point, on the nearer part, to its last one."), n);
+}

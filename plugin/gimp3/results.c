@@ -113,6 +113,14 @@ celd_results_find (GimpImage *image, const char *mark)
   return layer ? layer : find_layer (find_group_of_image (image, TRUE), mark);
 }
 
+GimpLayer *
+celd_results_find_unlocked (GimpImage *image, const char *mark)
+{
+  GimpLayer *layer = find_layer (find_group_of_image (image, FALSE), mark);
+
+  return layer && !gimp_item_get_lock_content (GIMP_ITEM (layer)) ? layer : NULL;
+}
+
 /* ------------------------------------------------------------------ writing */
 
 typedef struct

@@ -68,8 +68,8 @@ find_layers (GimpImage *image, GimpProcedureConfig *config)
     }
 }
 
-static gboolean
-check_layers (GimpLayer *const layer[CELD_N_LAYERS], const CeldPathArrows *paths, GError **error)
+gboolean
+celd_layers_check (GimpLayer *const layer[CELD_N_LAYERS], const CeldPathArrows *paths, GError **error)
 {
   if (!layer[CELD_LAYER_DRAWING])
     return fail (error, _ ("There is no layer named \"Drawing\", and there are several that could be it. Name it, or "
@@ -154,8 +154,12 @@ show_problems (CeldPipeline *pipeline, const CeldPathArrows *paths)
   if (problems)
     g_message ("%s", problems);
   if (paths->left_out)
-    g_message (_ ("Strokes of the path Arrows that are no arrows were left out: %d. They are closed, or have one "
-                  "point. An arrow goes from its first point, on the nearer part, to its last one."), paths->left_out);
+    {
+      char *text = celd_paths_left_out_text (paths->left_out);
+
+      g_message ("%s", text);
+      g_free (text);
+    }
   g_free (problems);
 }
 
@@ -171,7 +175,7 @@ read_and_make (const CeldProcedure *p, GimpImage *image, GimpProcedureConfig *co
 
   gimp_progress_init (_ ("Reading the layers"));
   celd_layers_chosen (config, layer);
-  if (check_layers (layer, &paths, error))
+  if (celd_layers_check (layer, &paths, error))
     pipeline = open_pipeline (image, config, layer, &paths, error);
   good = pipeline && p->make (pipeline, image, config, show_progress, &progress, error);
   if (good)

@@ -10,7 +10,8 @@
 #define PARASITE "celdepth-popup"
 #define GROUP "pop-up"
 
-#define ALL (CELD_FOR_POPUP | CELD_FOR_SPLIT | CELD_FOR_SUGGEST | CELD_FOR_STEREO | CELD_FOR_EXPORT | CELD_FOR_MESH)
+#define ALL (CELD_FOR_POPUP | CELD_FOR_SPLIT | CELD_FOR_SUGGEST | CELD_FOR_STEREO | CELD_FOR_EXPORT | CELD_FOR_MESH | \
+             CELD_FOR_LIVE)
 
 /* Settings of core, and who offers them.  `choices` is the number of choices, if not all are offered, and `more` one of
  * the plug-in's own behind them; label and help replace those of core. */
@@ -24,32 +25,32 @@ typedef struct
 } Offered;
 
 static const Offered offered[] = {
-  { .name = "light-azimuth", .offered = CELD_FOR_POPUP },
-  { .name = "light-elevation", .offered = CELD_FOR_POPUP },
-  { .name = "ambient", .offered = CELD_FOR_POPUP },
-  { .name = "light-model", .offered = CELD_FOR_POPUP, .choices = CELD_MODEL_MATCAP,
+  { .name = "light-azimuth", .offered = CELD_FOR_POPUP | CELD_FOR_LIVE },
+  { .name = "light-elevation", .offered = CELD_FOR_POPUP | CELD_FOR_LIVE },
+  { .name = "ambient", .offered = CELD_FOR_POPUP | CELD_FOR_LIVE },
+  { .name = "light-model", .offered = CELD_FOR_POPUP | CELD_FOR_LIVE, .choices = CELD_MODEL_MATCAP,
     .help = N_ ("How surfaces are lit: softly; more softly, so that light reaches around the parts; or in steps, as in "
                 "cel animation") },
-  { .name = "toon-steps", .offered = CELD_FOR_POPUP },
-  { .name = "specular", .offered = CELD_FOR_POPUP },
-  { .name = "rim-light", .offered = CELD_FOR_POPUP },
-  { .name = "bulge", .offered = CELD_FOR_POPUP },
-  { .name = "bevel", .offered = CELD_FOR_POPUP },
-  { .name = "shadow-strength", .offered = CELD_FOR_POPUP },
-  { .name = "shadow-size", .offered = CELD_FOR_POPUP },
-  { .name = "shadow-offset", .offered = CELD_FOR_POPUP },
+  { .name = "toon-steps", .offered = CELD_FOR_POPUP | CELD_FOR_LIVE },
+  { .name = "specular", .offered = CELD_FOR_POPUP | CELD_FOR_LIVE },
+  { .name = "rim-light", .offered = CELD_FOR_POPUP | CELD_FOR_LIVE },
+  { .name = "bulge", .offered = CELD_FOR_POPUP | CELD_FOR_LIVE },
+  { .name = "bevel", .offered = CELD_FOR_POPUP | CELD_FOR_LIVE },
+  { .name = "shadow-strength", .offered = CELD_FOR_POPUP | CELD_FOR_LIVE },
+  { .name = "shadow-size", .offered = CELD_FOR_POPUP | CELD_FOR_LIVE },
+  { .name = "shadow-offset", .offered = CELD_FOR_POPUP | CELD_FOR_LIVE },
   { .name = "complete", .offered = CELD_FOR_SPLIT },
-  { .name = "stereo", .offered = CELD_FOR_STEREO, .label = N_ ("_Arrangement"),
+  { .name = "stereo", .offered = CELD_FOR_STEREO | CELD_FOR_LIVE, .label = N_ ("_Arrangement"),
     .help = N_ ("How the two views are shown: mixed for red and cyan glasses; beside or above each other; by "
                 "alternating rows or columns for a screen that separates them; one of them; or each in a layer of its "
                 "own"),
     .more = { "two-layers", N_ ("Two layers, one for each eye") } },
-  { .name = "disparity", .offered = CELD_FOR_STEREO, .label = N_ ("_Eye distance"),
+  { .name = "disparity", .offered = CELD_FOR_STEREO | CELD_FOR_LIVE, .label = N_ ("_Eye distance"),
     .help = N_ ("How far the nearest and the farthest depth are displaced between the views, as a part of the width. "
                 "More than 3.3 % (0.033) strains the eyes") },
-  { .name = "convergence", .offered = CELD_FOR_STEREO, .label = N_ ("Con_vergence") },
-  { .name = "floating-window", .offered = CELD_FOR_STEREO },
-  { .name = "screen-width", .offered = CELD_FOR_STEREO },
+  { .name = "convergence", .offered = CELD_FOR_STEREO | CELD_FOR_LIVE, .label = N_ ("Con_vergence") },
+  { .name = "floating-window", .offered = CELD_FOR_STEREO | CELD_FOR_LIVE },
+  { .name = "screen-width", .offered = CELD_FOR_STEREO | CELD_FOR_LIVE },
   { .name = "mesh-kind", .offered = CELD_FOR_MESH },
   { .name = "mesh-size", .offered = CELD_FOR_MESH, .label = N_ ("_Longer side") },
   { .name = "relief-bulge", .offered = CELD_FOR_MESH, .label = N_ ("_Roundness") },

@@ -1,0 +1,327 @@
+/* Live: a window that shows regions, depth and light while the artist paints with GIMP's own brushes.
+ *
+ * The plug-in stays open, and GIMP goes on: a tick reads the layers, the solver's thread makes pictures of what has
+ * changed, and these are shown when they come.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "live.h"
+
+#define TICK      40  /* milliseconds between ticks at least; chosen */
+#define REST      8   /* times as long as a tick took until the next one, so that GIMP has time to paint; chosen */
+#define IDLE_TICK 120 /* milliseconds between ticks when nothing has changed for IDLE_AFTER microseconds; chosen */
+#define IDLE_AFTER 3000000
+
+typedef struct
+{
+  GimpImage        *image;
+  GMainLoop        *loop;
+  CeldLiveFollower *follower;
+  CeldLiveSolver   *solver;
+  CeldLiveView     *view;
+  CeldLiveMessages *messages;
+  GtkWidget        *window, *choice, *write, *spinner;
+  gboolean          ask;                        /* whether the solver has to be asked, whatever is changed */
+  const Babl       *format[CELD_N_PICTURES];    /* of pictures that are written into layers; NULL: not written */
+  guint             layers;                     /* pictures that have had a layer since `write` was ticked, as bits */
+  gint64            changed;                    /* when */
+} Live;
+
+/* Labels are those of front-end.c. */
+static const CeldLivePictures views[] = {
+  { N_ ("Regions and depth"), 2, { CELD_PICTURE_REGIONS, CELD_PICTURE_DEPTH } },
+  { N_ ("Regions"), 1, { CELD_PICTURE_REGIONS } },
+  { N_ ("Levels"), 1, { CELD_PICTURE_LEVELS } },
+  { N_ ("Depth"), 1, { CELD_PICTURE_DEPTH } },
+  { N_ ("Shading"), 1, { CELD_PICTURE_SHADING } },
+  { N_ ("Lit drawing"), 1, { CELD_PICTURE_LIT } },
+  { N_ ("Drawing with shadows"), 1, { CELD_PICTURE_ENHANCED } },
+  { N_ ("Stereo"), 1, { CELD_LIVE_STEREO } },
+};
+
+static const CeldLivePictures *
+chosen_view (const Live *live)
+{
+  return &views[MAX (gtk_combo_box_get_active (GTK_COMBO_BOX (live->choice)), 0)];
+}
+
+/* ------------------------------------------------------------------ answers */
+
+static void
+add_message (GArray *list, char *text)
+{
+  g_array_append_val (list, ((CeldPipelineProblem) { text, -1, -1 }));
+}
+
+/* Shows one sentence alone. */
+static void
+show_sentence (Live *live, const char *text)
+{
+  GArray *list = g_array_new (FALSE, FALSE, sizeof (CeldPipelineProblem));
+
+  add_message (list, (char *) text);
+  celd_live_messages_set (live->messages, list);
+  g_array_unref (list);
+}
+
+static void
+show_problems (Live *live, GArray *problems)
+{
+  int left_out = celd_live_follower_left_out (live->follower);
+
+  if (left_out)
+    add_message (problems, celd_paths_left_out_text (left_out));
+  celd_live_messages_set (live->messages, problems);
+}
+
+/* A CeldLiveAnswered. */
+static void
+answered (CeldLiveAnswer *answer, gpointer data)
+{
+  Live *live = data;
+
+  if (answer->pixels)
+    celd_live_view_put (live->view, answer);
+  if (answer->buffer && live->format[answer->picture] && gimp_image_is_valid (live->image))
+    {
+      celd_live_write (live->image, (CeldPicture) answer->picture, answer->buffer);
+      gimp_displays_flush ();
+    }
+  if (answer->problems)
+    show_problems (live, answer->problems);
+  if (answer->error)
+    show_sentence (live, answer->error);
+  if (answer->last)
+    gtk_spinner_stop (GTK_SPINNER (live->spinner));
+}
+
+/* ------------------------------------------------------------------ what is written */
+
+/* Looks for the layers that are written: those that the group has, and those of what is shown.  A layer that has gone
+ * was removed, or its making undone: then nothing is written any more, or it would come back at once. */
+static void
+look_for_layers (Live *live)
+{
+  const CeldLivePictures *view = chosen_view (live);
+  const Babl             *format[CELD_N_PICTURES] = { NULL };
+  gboolean                gone = FALSE;
+
+  for (int picture = 0; picture < CELD_POPUP_PICTURES; picture++)
+    {
+      format[picture] = celd_live_write_format (live->image, (CeldPicture) picture);
+      gone            = gone || (live->layers & 1u << picture && !format[picture]);
+      live->layers   |= format[picture] ? 1u << picture : 0;
+    }
+  for (int i = 0; i < view->n; i++)
+    if (view->picture[i] != CELD_LIVE_STEREO && !format[view->picture[i]])
+      format[view->picture[i]] = celd_live_write_new_format (live->image, (CeldPicture) view->picture[i]);
+  for (int picture = 0; picture < CELD_N_PICTURES; picture++)
+    {
+      live->ask            = live->ask || format[picture] != live->format[picture];
+      live->format[picture] = format[picture];
+    }
+  if (gone)
+    gtk_toggle_button_set_active (GTK_TOGGLE_BUTTON (live->write), FALSE);
+}
+
+static void
+write_toggled (GtkToggleButton *button, gpointer data)
+{
+  Live *live = data;
+
+  live->layers = 0;
+  for (int picture = 0; picture < CELD_N_PICTURES; picture++)
+    live->format[picture] = NULL;
+  if (gtk_toggle_button_get_active (button))
+    look_for_layers (live);
+}
+
+/* ------------------------------------------------------------------ the tick */
+
+static void
+ask (Live *live)
+{
+  CeldLiveRequest        *request = celd_live_follower_request (live->follower);
+  const CeldLivePictures *view = chosen_view (live);
+
+  for (int i = 0; i < view->n; i++)
+    request->shown |= 1u << view->picture[i];
+  for (int picture = 0; picture < CELD_N_PICTURES; picture++)
+    request->format[picture] = live->format[picture];
+  celd_live_solver_ask (live->solver, request);
+  gtk_spinner_start (GTK_SPINNER (live->spinner));
+  live->ask = FALSE;
+}
+
+/* FALSE: the image has been closed. */
+static gboolean
+follow (Live *live)
+{
+  GError      *error = NULL;
+  gboolean     looked;
+  CeldLiveNews news = celd_live_follow (live->follower, &looked, &error);
+
+  if (news == CELD_LIVE_CLOSED)
+    return FALSE;
+  if (news == CELD_LIVE_REFUSED)
+    {
+      show_sentence (live, error->message);
+      g_clear_error (&error);
+      live->ask = TRUE; /* as soon as it is not */
+      return TRUE;
+    }
+  if (looked && gtk_toggle_button_get_active (GTK_TOGGLE_BUTTON (live->write)))
+    look_for_layers (live);
+  if (news == CELD_LIVE_CHANGED)
+    live->changed = g_get_monotonic_time ();
+  if (news == CELD_LIVE_CHANGED || live->ask)
+    ask (live);
+  return TRUE;
+}
+
+static gboolean
+tick (gpointer data)
+{
+  Live  *live = data;
+  gint64 begin = g_get_monotonic_time (), end;
+
+  if (!follow (live))
+    {
+      g_main_loop_quit (live->loop);
+      return G_SOURCE_REMOVE;
+    }
+  end = g_get_monotonic_time ();
+  g_timeout_add ((guint) MAX (end - live->changed > IDLE_AFTER ? IDLE_TICK : TICK, REST * (end - begin) / 1000), tick,
+                 live);
+  return G_SOURCE_REMOVE;
+}
+
+/* ------------------------------------------------------------------ the window */
+
+static void
+view_chosen (GtkComboBox *choice, gpointer data)
+{
+  Live *live = data;
+
+  (void) choice;
+  celd_live_view_choose (live->view, chosen_view (live));
+  if (gtk_toggle_button_get_active (GTK_TOGGLE_BUTTON (live->write)))
+    look_for_layers (live);
+  live->ask = TRUE;
+}
+
+static GtkWidget *
+make_bar (Live *live)
+{
+  GtkWidget *bar = gtk_box_new (GTK_ORIENTATION_HORIZONTAL, 12);
+
+  live->choice  = gtk_combo_box_text_new ();
+  live->write   = gtk_check_button_new_with_mnemonic (_ ("_Write into layers"));
+  live->spinner = gtk_spinner_new ();
+  for (gsize i = 0; i < G_N_ELEMENTS (views); i++)
+    gtk_combo_box_text_append_text (GTK_COMBO_BOX_TEXT (live->choice), _ (views[i].label));
+  gtk_combo_box_set_active (GTK_COMBO_BOX (live->choice), 0);
+  gtk_widget_set_tooltip_text (live->choice, _ ("What is shown"));
+  gtk_widget_set_tooltip_text (live->write, _ ("Keeps the layers of the group Cartoon Depth, and those of what is "
+                                               "shown, up to date. Edit > Undo takes back your own strokes alone"));
+  gtk_box_pack_start (GTK_BOX (bar), live->choice, FALSE, FALSE, 0);
+  gtk_box_pack_start (GTK_BOX (bar), live->write, FALSE, FALSE, 0);
+  gtk_box_pack_end (GTK_BOX (bar), live->spinner, FALSE, FALSE, 0);
+  g_signal_connect (live->choice, "changed", G_CALLBACK (view_chosen), live);
+  g_signal_connect (live->write, "toggled", G_CALLBACK (write_toggled), live);
+  return bar;
+}
+
+static gboolean
+close_window (GtkWidget *window, GdkEvent *event, gpointer data)
+{
+  Live *live = data;
+
+  (void) window;
+  (void) event;
+  g_main_loop_quit (live->loop);
+  return TRUE; /* it is destroyed after the loop */
+}
+
+/* Above GIMP's window, which keeps the keyboard. */
+static void
+open_window (Live *live)
+{
+  GtkWidget *box = gtk_box_new (GTK_ORIENTATION_VERTICAL, 6);
+  char      *name = gimp_image_get_name (live->image), *title = g_strdup_printf (_ ("Live: %s"), name);
+
+  live->window   = gtk_window_new (GTK_WINDOW_TOPLEVEL);
+  live->view     = celd_live_view_new ();
+  live->messages = celd_live_messages_new (live->view);
+  gtk_window_set_title (GTK_WINDOW (live->window), title);
+  gtk_window_set_role (GTK_WINDOW (live->window), "celdepth-live");
+  gtk_window_set_type_hint (GTK_WINDOW (live->window), GDK_WINDOW_TYPE_HINT_UTILITY);
+  gtk_window_set_focus_on_map (GTK_WINDOW (live->window), FALSE);
+  gtk_window_set_default_size (GTK_WINDOW (live->window), 640, 420);
+  gtk_container_set_border_width (GTK_CONTAINER (live->window), 6);
+  gtk_box_pack_start (GTK_BOX (box), make_bar (live), FALSE, FALSE, 0);
+  gtk_box_pack_start (GTK_BOX (box), celd_live_view_widget (live->view), TRUE, TRUE, 0);
+  gtk_box_pack_start (GTK_BOX (box), celd_live_messages_widget (live->messages), FALSE, FALSE, 0);
+  gtk_container_add (GTK_CONTAINER (live->window), box);
+  celd_live_view_choose (live->view, chosen_view (live));
+  g_signal_connect (live->window, "delete-event", G_CALLBACK (close_window), live);
+  gimp_window_set_transient (GTK_WINDOW (live->window));
+  gtk_widget_show_all (live->window);
+  g_free (title);
+  g_free (name);
+}
+
+static void
+show_window (GimpImage *image, GimpProcedureConfig *config)
+{
+  Live live = { .image = image, .loop = g_main_loop_new (NULL, FALSE) };
+
+  gimp_ui_init ("celdepth");
+  live.follower = celd_live_follower_new (image, config);
+  live.solver   = celd_live_solver_new (answered, &live);
+  open_window (&live);
+  g_timeout_add (TICK, tick, &live);
+  g_main_loop_run (live.loop);
+  celd_live_solver_free (live.solver);
+  celd_live_messages_set (live.messages, NULL); /* which unmarks the view while that is there */
+  gtk_widget_destroy (live.window);
+  celd_live_follower_free (live.follower);
+  g_main_loop_unref (live.loop);
+}
+
+/* ------------------------------------------------------------------ the procedure */
+
+static GimpValueArray *
+run (GimpProcedure *procedure, GimpRunMode run_mode, GimpImage *image, GimpDrawable **drawables,
+     GimpProcedureConfig *config, gpointer run_data)
+{
+  GError *error = NULL;
+
+  (void) drawables;
+  (void) run_data;
+  if (run_mode == GIMP_RUN_NONINTERACTIVE)
+    {
+      g_set_error_literal (&error, CELD_PIPELINE_ERROR, CELD_PIPELINE_FAILED,
+                           _ ("Live is a window for artists. Scripts use plug-in-celdepth-popup."));
+      return gimp_procedure_new_return_values (procedure, GIMP_PDB_CALLING_ERROR, error);
+    }
+  gegl_init (NULL, NULL);
+  show_window (image, config);
+  return gimp_procedure_new_return_values (procedure, GIMP_PDB_SUCCESS, NULL);
+}
+
+static void
+add_arguments (GimpProcedure *procedure)
+{
+  celd_settings_add_arguments (procedure, CELD_FOR_LIVE);
+}
+
+const CeldProcedure celd_live_procedure = {
+  .name          = "plug-in-celdepth-live",
+  .menu_label    = N_ ("_Live..."),
+  .blurb         = N_ ("Shows regions, depth and light in a window beside the canvas, while you paint"),
+  .help          = N_ ("Follows the layers Drawing, Scribbles, Arrows, Contours, Corrections and Hidden in mid-stroke, "
+                       "with the settings that are kept with the image. The window closes with the image."),
+  .add_arguments = add_arguments,
+  .run           = run,
+};

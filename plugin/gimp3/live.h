@@ -1,0 +1,93 @@
+/* Live: what its files share.
+ *
+ *   live.c            the procedure: the window, and a tick that ties all of it together
+ *   live-follow.c     reads the layers again and again, and notices what has changed
+ *   live-view.c       shows pictures, and the place of a message
+ *   live-messages.c   the list of messages below it
+ *   live-write.c      writes pictures into the group of results, without steps of undo
+ *
+ * What takes time is done by the thread of live-solver.h.  GIMP is called in the main thread alone.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#ifndef CELD_GIMP3_LIVE_H
+#define CELD_GIMP3_LIVE_H
+
+#include <libgimp/gimpui.h>
+
+#include "gimp3.h"
+#include "live-solver.h"
+
+/* ------------------------------------------------------------------ live-follow.c */
+
+typedef struct CeldLiveFollower CeldLiveFollower;
+
+typedef enum
+{
+  CELD_LIVE_SAME,
+  CELD_LIVE_CHANGED,
+  CELD_LIVE_REFUSED,      /* nothing can be made of the image as it is */
+  CELD_LIVE_CLOSED        /* there is no image any more */
+} CeldLiveNews;
+
+CeldLiveFollower *celd_live_follower_new  (GimpImage *image, GimpProcedureConfig *config); /* both borrowed */
+void              celd_live_follower_free (CeldLiveFollower *follower);
+
+/* Looks at the image.  Layers that are selected are read every time, others in turn; names of layers, settings and
+ * paths, several times a second at most.  *error, a sentence for the artist, is set if it is refused.  *looked: whether
+ * names were looked at. */
+CeldLiveNews celd_live_follow (CeldLiveFollower *follower, gboolean *looked, GError **error);
+
+/* The layers and settings as they were read last, to be freed; nothing is wanted yet. */
+CeldLiveRequest *celd_live_follower_request (const CeldLiveFollower *follower);
+
+/* The strokes of paths that are no arrows. */
+int celd_live_follower_left_out (const CeldLiveFollower *follower);
+
+/* ------------------------------------------------------------------ live-view.c */
+
+#define CELD_LIVE_MOST_SHOWN 2
+
+/* The pictures of a view, CeldPicture or CELD_LIVE_STEREO, side by side. */
+typedef struct { const char *label; int n, picture[CELD_LIVE_MOST_SHOWN]; } CeldLivePictures;
+
+typedef struct CeldLiveView CeldLiveView;
+
+CeldLiveView *celd_live_view_new    (void);  /* freed with its widget */
+GtkWidget    *celd_live_view_widget (CeldLiveView *view);
+
+/* Shows other pictures, as soon as the first of them is there. */
+void celd_live_view_choose (CeldLiveView *view, const CeldLivePictures *pictures);
+
+/* Takes the pixels of an answer; those of pictures that are not chosen are dropped, but regions while there is nothing
+ * else. */
+void celd_live_view_put (CeldLiveView *view, CeldLiveAnswer *answer);
+
+/* Marks a place of the image; x < 0: none. */
+void celd_live_view_mark (CeldLiveView *view, int x, int y);
+
+/* ------------------------------------------------------------------ live-messages.c */
+
+typedef struct CeldLiveMessages CeldLiveMessages;
+
+/* `view` gets the place of the message that is selected. */
+CeldLiveMessages *celd_live_messages_new    (CeldLiveView *view);  /* freed with its widget */
+GtkWidget        *celd_live_messages_widget (CeldLiveMessages *messages);
+
+/* Replaces the list by problems (NULL: none); the one that is selected stays so if it is among them.  Without any the
+ * list hides. */
+void celd_live_messages_set (CeldLiveMessages *messages, const GArray *problems);
+
+/* ------------------------------------------------------------------ live-write.c */
+
+/* The format of the layer of a picture that can be written to, NULL: there is none. */
+const Babl *celd_live_write_format (GimpImage *image, CeldPicture picture);
+
+/* The format for the layer of a picture that is still to be made. */
+const Babl *celd_live_write_new_format (GimpImage *image, CeldPicture picture);
+
+/* Writes a picture into its layer where that differs, without a step of undo; the group or the layer is made, with one
+ * step, if there is none.  A layer whose pixels are locked stays as it is. */
+void celd_live_write (GimpImage *image, CeldPicture picture, GeglBuffer *buffer);
+
+#endif
