@@ -26,6 +26,7 @@ struct CeldLiveSolver
   gboolean         may_give_up; /* what is being made, when there is a newer request */
   gboolean         gave_up;     /* the request before */
   gboolean         has_shown;   /* any picture */
+  gboolean         has_views;   /* of this request */
   gint64           depth_took;  /* microseconds, the last time */
 };
 
@@ -162,13 +163,22 @@ read_request (CeldLiveSolver *s, CeldLiveRequest *request, GError **error)
   return s->pipeline != NULL;
 }
 
+/* How the views are arranged in a picture. */
+static CeldStereo
+arrangement (const CeldLiveSolver *s, int picture)
+{
+  if (picture == CELD_LIVE_STEREO)
+    return s->request->input.settings.stereo;
+  return picture == CELD_LIVE_LEFT ? CELD_STEREO_LEFT : CELD_STEREO_RIGHT;
+}
+
 static gboolean
 write (CeldLiveSolver *s, int picture, gboolean preview, GeglBuffer *buffer, GError **error)
 {
   if (preview)
     return celd_pipeline_write_preview (s->pipeline, go_on, s, buffer, error);
-  if (picture == CELD_LIVE_STEREO)
-    return celd_pipeline_write_views (s->pipeline, s->request->input.settings.stereo, buffer, error);
+  if (picture >= CELD_LIVE_STEREO)
+    return celd_pipeline_write_views (s->pipeline, arrangement (s, picture), buffer, error);
   return celd_pipeline_write (s->pipeline, (CeldPicture) picture, buffer, error);
 }
 
@@ -181,8 +191,8 @@ show (CeldLiveSolver *s, int picture, gboolean preview, GError **error)
   GeglBuffer              *buffer;
   gboolean                 good;
 
-  if (picture == CELD_LIVE_STEREO)
-    celd_stereo_size (input->settings.stereo, &answer.width, &answer.height);
+  if (picture >= CELD_LIVE_STEREO)
+    celd_stereo_size (arrangement (s, picture), &answer.width, &answer.height);
   answer.width  = (answer.width + answer.scale - 1) / answer.scale;
   answer.height = (answer.height + answer.scale - 1) / answer.scale;
   answer.pixels = g_try_malloc_n ((gsize) answer.width * (gsize) answer.height, 4);
@@ -205,10 +215,18 @@ show (CeldLiveSolver *s, int picture, gboolean preview, GError **error)
 }
 
 static gboolean
+make_views (CeldLiveSolver *s, GError **error)
+{
+  if (!s->has_views)
+    s->has_views = celd_pipeline_view (s->pipeline, go_on, s, error);
+  return s->has_views;
+}
+
+static gboolean
 make (CeldLiveSolver *s, int picture, GError **error)
 {
   gint64   begin = g_get_monotonic_time ();
-  gboolean good = picture == CELD_LIVE_STEREO ? celd_pipeline_view (s->pipeline, go_on, s, error)
+  gboolean good = picture >= CELD_LIVE_STEREO ? make_views (s, error)
                                               : celd_pipeline_make (s->pipeline, 1u << picture, go_on, s, error);
 
   if (picture == CELD_PICTURE_DEPTH)
@@ -248,9 +266,10 @@ make_others (CeldLiveSolver *s, GError **error)
   gboolean               good = TRUE;
 
   s->may_give_up = !s->gave_up;
+  s->has_views   = FALSE;
   if (r->shown & 1u << CELD_PICTURE_DEPTH && s->depth_took >= PREVIEW_FROM)
     good = show (s, CELD_PICTURE_DEPTH, TRUE, error);
-  for (int picture = 0; picture <= CELD_LIVE_STEREO && good; picture++)
+  for (int picture = 0; picture < CELD_LIVE_N_PICTURES && good; picture++)
     if (picture != CELD_PICTURE_REGIONS && r->shown & 1u << picture)
       good = make (s, picture, error) && show (s, picture, FALSE, error);
   for (int picture = 0; picture < CELD_N_PICTURES && good; picture++)

@@ -11,8 +11,8 @@
 
 #include "pipeline.h"
 
-/* Beside the pictures of the pipeline: both views, arranged as settings.stereo says. */
-#define CELD_LIVE_STEREO CELD_N_PICTURES
+/* Beside the pictures of the pipeline: both views, arranged as settings.stereo says; and each of them. */
+enum { CELD_LIVE_STEREO = CELD_N_PICTURES, CELD_LIVE_LEFT, CELD_LIVE_RIGHT, CELD_LIVE_N_PICTURES };
 
 /* Owns its buffers, which must not change any more, and its texts. */
 typedef struct

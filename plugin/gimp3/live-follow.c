@@ -1,7 +1,9 @@
 /* Follows the layers of an image while the artist paints.
  *
  * GIMP does not tell plug-ins that pixels have changed, so layers are read and compared.  A buffer of GIMP's never
- * changes once it is there: each reading gets a new one.
+ * changes once it is there: each reading gets a new one.  Tiles are sent one by one, and libgimp ends a plug-in whose
+ * layer is resized or removed meanwhile; so a copy is read, in an image that nobody else knows.  A copy is made at once,
+ * and shares its tiles with the layer.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -16,6 +18,7 @@ struct CeldLiveFollower
 {
   GimpImage           *image;
   GimpProcedureConfig *config;
+  GimpImage           *own;                   /* where copies belong, without a display; NULL: none yet */
   GimpLayer           *layer[CELD_N_LAYERS];  /* NULL: there is none */
   CeldLiveRequest     *seen;
   guint8              *pixels[CELD_N_LAYERS]; /* those of the buffers in `seen`, which own them */
@@ -50,6 +53,8 @@ celd_live_follower_free (CeldLiveFollower *f)
 {
   for (int role = 0; role < CELD_N_LAYERS; role++)
     g_clear_object (&f->layer[role]);
+  if (f->own)
+    gimp_image_delete (f->own);
   celd_live_request_free (f->seen);
   g_free (f->spare);
   g_free (f);
@@ -86,10 +91,8 @@ read_pixels (CeldLiveFollower *f, GeglBuffer *buffer, gsize size)
 
 /* Whether the layer has become another one; then `seen` has it. */
 static gboolean
-read_layer (CeldLiveFollower *f, int role)
+take_pixels (CeldLiveFollower *f, int role, GeglBuffer *buffer)
 {
-  GimpDrawable      *drawable = GIMP_DRAWABLE (f->layer[role]);
-  GeglBuffer        *buffer = gimp_drawable_get_buffer (drawable);
   CeldPipelineLayer *seen = &f->seen->input.layer[role];
   CeldPipelineLayer  now = { NULL, 0, 0 };
   GeglRectangle      extent;
@@ -97,16 +100,13 @@ read_layer (CeldLiveFollower *f, int role)
   gsize              size;
   gboolean           same;
 
-  if (!buffer)
-    return FALSE;
   extent = *gegl_buffer_get_extent (buffer);
   format = gegl_buffer_get_format (buffer);
   size   = (gsize) extent.width * (gsize) extent.height * (gsize) babl_format_get_bytes_per_pixel (format);
-  gimp_drawable_get_offsets (drawable, &now.x, &now.y);
+  gimp_drawable_get_offsets (GIMP_DRAWABLE (f->layer[role]), &now.x, &now.y);
   same = !read_pixels (f, buffer, size) ||
          (seen->buffer && gegl_rectangle_equal (&extent, gegl_buffer_get_extent (seen->buffer)) &&
           format == gegl_buffer_get_format (seen->buffer) && !memcmp (f->spare, f->pixels[role], size));
-  g_object_unref (buffer);
   if (same && now.x == seen->x && now.y == seen->y)
     return FALSE;
   if (!same)
@@ -121,6 +121,19 @@ read_layer (CeldLiveFollower *f, int role)
   seen->x = now.x;
   seen->y = now.y;
   return TRUE;
+}
+
+static gboolean
+read_layer (CeldLiveFollower *f, int role)
+{
+  GimpLayer  *copy = gimp_layer_new_from_drawable (GIMP_DRAWABLE (f->layer[role]), f->own);
+  GeglBuffer *buffer = copy ? gimp_drawable_get_buffer (GIMP_DRAWABLE (copy)) : NULL;
+  gboolean    changed = buffer && take_pixels (f, role, buffer);
+
+  g_clear_object (&buffer);
+  if (copy)
+    gimp_item_delete (GIMP_ITEM (copy));
+  return changed;
 }
 
 /* The layers that the artist may be painting on, as bits. */
@@ -227,6 +240,28 @@ take_settings (CeldLiveFollower *f, const CeldPathArrows *paths)
   return changed;
 }
 
+/* Copies would be converted if their image had another precision or another profile. */
+static void
+make_own_image (CeldLiveFollower *f)
+{
+  GimpPrecision     precision = gimp_image_get_precision (f->image);
+  GimpColorProfile *profile = gimp_image_get_color_profile (f->image);
+  GimpColorProfile *own = f->own ? gimp_image_get_color_profile (f->own) : NULL;
+
+  if (!f->own || gimp_image_get_precision (f->own) != precision || !profile != !own ||
+      (profile && !gimp_color_profile_is_equal (profile, own)))
+    {
+      if (f->own)
+        gimp_image_delete (f->own);
+      f->own = gimp_image_new_with_precision (1, 1, GIMP_RGB, precision);
+      gimp_image_undo_disable (f->own);
+      if (profile)
+        gimp_image_set_color_profile (f->own, profile);
+    }
+  g_clear_object (&profile);
+  g_clear_object (&own);
+}
+
 /* *changed is set to TRUE if anything has.  FALSE and *error: the image cannot be followed as it is. */
 static gboolean
 look (CeldLiveFollower *f, gboolean *changed, GError **error)
@@ -237,6 +272,7 @@ look (CeldLiveFollower *f, gboolean *changed, GError **error)
 
   if (!celd_image_check (f->image, error))
     return FALSE;
+  make_own_image (f);
   celd_settings_recall (f->image, f->config);
   celd_layers_chosen (f->config, layer);
   paths = celd_paths_read (f->image);

@@ -9,18 +9,21 @@
 #define GAP        6    /* pixels between pictures; chosen */
 #define RING       12   /* pixels, the radius of the ring round a place; chosen */
 #define LEAST_SIZE 240  /* pixels of the area; chosen */
+#define TURN       300  /* milliseconds for which each of pictures in turn is seen; chosen */
 
 struct CeldLiveView
 {
   GtkWidget              *area;
   const CeldLivePictures *shown, *chosen;                  /* `chosen` is shown as soon as there is one of it */
-  cairo_surface_t        *surface[CELD_LIVE_STEREO + 1];   /* NULL: there is none */
-  int                     scale[CELD_LIVE_STEREO + 1];     /* pixels of the image that one of the surface is wide */
+  cairo_surface_t        *surface[CELD_LIVE_N_PICTURES];   /* NULL: there is none */
+  int                     scale[CELD_LIVE_N_PICTURES];     /* pixels of the image that one of the surface is wide */
   int                     mark_x, mark_y;                  /* in the image; x < 0: none */
+  int                     turn;                            /* the picture that is seen, of those in turn */
+  guint                   timer;                           /* for the next one */
 };
 
 /* What is shown before there is anything else. */
-static const CeldLivePictures at_first = { NULL, 1, { CELD_PICTURE_REGIONS } };
+static const CeldLivePictures at_first = { NULL, 1, { CELD_PICTURE_REGIONS }, FALSE };
 
 /* ------------------------------------------------------------------ drawing */
 
@@ -86,7 +89,7 @@ draw_picture (const CeldLiveView *view, cairo_t *cr, int i, double zoom)
   cairo_pattern_set_filter (cairo_get_source (cr), scale < 1 ? CAIRO_FILTER_GOOD : CAIRO_FILTER_NEAREST);
   cairo_paint (cr);
   cairo_restore (cr);
-  if (view->mark_x >= 0 && view->shown->picture[i] != CELD_LIVE_STEREO)
+  if (view->mark_x >= 0 && view->shown->picture[i] < CELD_LIVE_STEREO)
     draw_mark (view, cr, zoom);
 }
 
@@ -95,10 +98,9 @@ typedef struct { gboolean row; double zoom, width, height; } Layout;
 
 /* Not enlarged: pixels are seen as GIMP shows them at 100 %. */
 static Layout
-arrange (const CeldLiveView *view, double room_x, double room_y)
+arrange (const CeldLiveView *view, int n, double room_x, double room_y)
 {
   double width, height, row, column, zoom;
-  int    n = view->shown->n;
 
   get_size (view, 0, &width, &height);
   row    = fit (width, height, n, TRUE, room_x, room_y);
@@ -119,14 +121,14 @@ draw (GtkWidget *area, cairo_t *cr, gpointer data)
 {
   const CeldLiveView *view = data;
   double              room_x = gtk_widget_get_allocated_width (area), room_y = gtk_widget_get_allocated_height (area);
-  int                 n = view->shown->n;
+  int                 n = view->shown->in_turn ? 1 : view->shown->n, first = view->shown->in_turn ? view->turn : 0;
   Layout              l;
 
   if (!surface_of (view, 0))
     return FALSE;
-  l = arrange (view, room_x, room_y);
+  l = arrange (view, n, room_x, room_y);
   cairo_translate (cr, margin (room_x, l.row ? n : 1, l.width), margin (room_y, l.row ? 1 : n, l.height));
-  for (int i = 0; i < n && surface_of (view, i); i++)
+  for (int i = first; i < first + n && surface_of (view, i); i++)
     {
       draw_picture (view, cr, i, l.zoom);
       cairo_translate (cr, l.row ? ceil (l.width) + GAP : 0, l.row ? 0 : ceil (l.height) + GAP);
@@ -145,12 +147,26 @@ has (const CeldLivePictures *pictures, int picture)
   return FALSE;
 }
 
+static gboolean
+take_turn (gpointer data)
+{
+  CeldLiveView *view = data;
+
+  view->turn = (view->turn + 1) % view->shown->n;
+  gtk_widget_queue_draw (view->area);
+  return G_SOURCE_CONTINUE;
+}
+
 /* Pictures that are not shown are freed: they would be old when they are shown again. */
 static void
 set_shown (CeldLiveView *view, const CeldLivePictures *pictures)
 {
   view->shown = pictures;
-  for (int picture = 0; picture <= CELD_LIVE_STEREO; picture++)
+  view->turn  = 0;
+  g_clear_handle_id (&view->timer, g_source_remove);
+  if (pictures->in_turn)
+    view->timer = g_timeout_add (TURN, take_turn, view);
+  for (int picture = 0; picture < CELD_LIVE_N_PICTURES; picture++)
     if (!has (pictures, picture))
       g_clear_pointer (&view->surface[picture], cairo_surface_destroy);
 }
@@ -197,7 +213,8 @@ destroy (gpointer data)
 {
   CeldLiveView *view = data;
 
-  for (int picture = 0; picture <= CELD_LIVE_STEREO; picture++)
+  g_clear_handle_id (&view->timer, g_source_remove);
+  for (int picture = 0; picture < CELD_LIVE_N_PICTURES; picture++)
     g_clear_pointer (&view->surface[picture], cairo_surface_destroy);
   g_free (view);
 }

@@ -29,14 +29,15 @@ typedef struct
 
 /* Labels are those of front-end.c. */
 static const CeldLivePictures views[] = {
-  { N_ ("Regions and depth"), 2, { CELD_PICTURE_REGIONS, CELD_PICTURE_DEPTH } },
-  { N_ ("Regions"), 1, { CELD_PICTURE_REGIONS } },
-  { N_ ("Levels"), 1, { CELD_PICTURE_LEVELS } },
-  { N_ ("Depth"), 1, { CELD_PICTURE_DEPTH } },
-  { N_ ("Shading"), 1, { CELD_PICTURE_SHADING } },
-  { N_ ("Lit drawing"), 1, { CELD_PICTURE_LIT } },
-  { N_ ("Drawing with shadows"), 1, { CELD_PICTURE_ENHANCED } },
-  { N_ ("Stereo"), 1, { CELD_LIVE_STEREO } },
+  { N_ ("Regions and depth"), 2, { CELD_PICTURE_REGIONS, CELD_PICTURE_DEPTH }, FALSE },
+  { N_ ("Regions"), 1, { CELD_PICTURE_REGIONS }, FALSE },
+  { N_ ("Levels"), 1, { CELD_PICTURE_LEVELS }, FALSE },
+  { N_ ("Depth"), 1, { CELD_PICTURE_DEPTH }, FALSE },
+  { N_ ("Shading"), 1, { CELD_PICTURE_SHADING }, FALSE },
+  { N_ ("Lit drawing"), 1, { CELD_PICTURE_LIT }, FALSE },
+  { N_ ("Drawing with shadows"), 1, { CELD_PICTURE_ENHANCED }, FALSE },
+  { N_ ("Stereo"), 1, { CELD_LIVE_STEREO }, FALSE },
+  { N_ ("Wiggle"), 2, { CELD_LIVE_LEFT, CELD_LIVE_RIGHT }, TRUE },
 };
 
 static const CeldLivePictures *
@@ -113,7 +114,7 @@ look_for_layers (Live *live)
       live->layers   |= format[picture] ? 1u << picture : 0;
     }
   for (int i = 0; i < view->n; i++)
-    if (view->picture[i] != CELD_LIVE_STEREO && !format[view->picture[i]])
+    if (view->picture[i] < CELD_POPUP_PICTURES && !format[view->picture[i]])
       format[view->picture[i]] = celd_live_write_new_format (live->image, (CeldPicture) view->picture[i]);
   for (int picture = 0; picture < CELD_N_PICTURES; picture++)
     {
@@ -232,15 +233,16 @@ make_bar (Live *live)
   return bar;
 }
 
-static gboolean
-close_window (GtkWidget *window, GdkEvent *event, gpointer data)
+/* What is in the window is still there. */
+static void
+window_closed (GtkWidget *window, gpointer data)
 {
   Live *live = data;
 
   (void) window;
-  (void) event;
+  live->window = NULL;
+  celd_live_messages_set (live->messages, NULL); /* so that none is unselected when there is no view any more */
   g_main_loop_quit (live->loop);
-  return TRUE; /* it is destroyed after the loop */
 }
 
 /* Above GIMP's window, which keeps the keyboard. */
@@ -264,7 +266,7 @@ open_window (Live *live)
   gtk_box_pack_start (GTK_BOX (box), celd_live_messages_widget (live->messages), FALSE, FALSE, 0);
   gtk_container_add (GTK_CONTAINER (live->window), box);
   celd_live_view_choose (live->view, chosen_view (live));
-  g_signal_connect (live->window, "delete-event", G_CALLBACK (close_window), live);
+  g_signal_connect (live->window, "destroy", G_CALLBACK (window_closed), live);
   gimp_window_set_transient (GTK_WINDOW (live->window));
   gtk_widget_show_all (live->window);
   g_free (title);
@@ -283,8 +285,8 @@ show_window (GimpImage *image, GimpProcedureConfig *config)
   g_timeout_add (TICK, tick, &live);
   g_main_loop_run (live.loop);
   celd_live_solver_free (live.solver);
-  celd_live_messages_set (live.messages, NULL); /* which unmarks the view while that is there */
-  gtk_widget_destroy (live.window);
+  if (live.window)
+    gtk_widget_destroy (live.window);
   celd_live_follower_free (live.follower);
   g_main_loop_unref (live.loop);
 }

@@ -48,8 +48,8 @@ int celd_live_follower_left_out (const CeldLiveFollower *follower);
 
 #define CELD_LIVE_MOST_SHOWN 2
 
-/* The pictures of a view, CeldPicture or CELD_LIVE_STEREO, side by side. */
-typedef struct { const char *label; int n, picture[CELD_LIVE_MOST_SHOWN]; } CeldLivePictures;
+/* The pictures of a view, CeldPicture or CELD_LIVE_..., side by side, or one at a time. */
+typedef struct { const char *label; int n, picture[CELD_LIVE_MOST_SHOWN]; gboolean in_turn; } CeldLivePictures;
 
 typedef struct CeldLiveView CeldLiveView;
 

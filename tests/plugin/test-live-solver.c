@@ -14,9 +14,9 @@ typedef struct
 {
   CeldLiveSolver *solver;
   GString        *order;                            /* a letter for each answer */
-  guint8         *pixels[CELD_LIVE_STEREO + 1];     /* the last full ones of each picture */
-  int             width[CELD_LIVE_STEREO + 1];
-  GeglBuffer     *buffer[CELD_LIVE_STEREO + 1];
+  guint8         *pixels[CELD_LIVE_N_PICTURES];     /* the last full ones of each picture */
+  int             width[CELD_LIVE_N_PICTURES];
+  GeglBuffer     *buffer[CELD_LIVE_N_PICTURES];
   GArray         *problems;
   char           *error;
   int             n_last, more;                     /* requests that are still to be made, at each picture of regions */
@@ -99,7 +99,7 @@ static void
 end (Seen *seen)
 {
   celd_live_solver_free (seen->solver);
-  for (int i = 0; i <= CELD_LIVE_STEREO; i++)
+  for (int i = 0; i < CELD_LIVE_N_PICTURES; i++)
     {
       g_free (seen->pixels[i]);
       g_clear_object (&seen->buffer[i]);
@@ -131,9 +131,12 @@ is_that_of_a_pipeline (const Seen *seen, const CeldLiveRequest *request, int pic
   guint8        wanted[4 * PIXELS];
   bool          good;
 
-  if (picture == CELD_LIVE_STEREO)
+  if (picture >= CELD_LIVE_STEREO)
     good = celd_pipeline_view (pipeline, NULL, NULL, NULL) &&
-           celd_pipeline_write_views (pipeline, request->input.settings.stereo, buffer, NULL);
+           celd_pipeline_write_views (pipeline, picture == CELD_LIVE_LEFT    ? CELD_STEREO_LEFT
+                                                : picture == CELD_LIVE_RIGHT ? CELD_STEREO_RIGHT
+                                                                             : request->input.settings.stereo,
+                                      buffer, NULL);
   else
     good = celd_pipeline_make (pipeline, 1u << picture, NULL, NULL, NULL) &&
            celd_pipeline_write (pipeline, (CeldPicture) picture, buffer, NULL);
@@ -166,7 +169,7 @@ static void
 edits_give_what_a_new_pipeline_gives (void)
 {
   static const int pictures[] = { CELD_PICTURE_REGIONS, CELD_PICTURE_LEVELS, CELD_PICTURE_DEPTH, CELD_PICTURE_SHADING,
-                                  CELD_PICTURE_LIT, CELD_LIVE_STEREO };
+                                  CELD_PICTURE_LIT, CELD_LIVE_STEREO, CELD_LIVE_LEFT, CELD_LIVE_RIGHT };
   Seen             seen = begin ();
   guint            shown = 0;
 
