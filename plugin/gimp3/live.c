@@ -7,6 +7,11 @@
  */
 #include "live.h"
 
+#ifdef G_OS_UNIX
+#include <sys/resource.h>
+#endif
+
+#define NICE      5   /* of the plug-in and its threads: GIMP comes first where processors are scarce; chosen */
 #define TICK      40  /* milliseconds between ticks at least; chosen */
 #define REST      8   /* times as long as a tick took until the next one, so that GIMP has time to paint; chosen */
 #define IDLE_TICK 120 /* milliseconds between ticks when nothing has changed for IDLE_AFTER microseconds; chosen */
@@ -307,6 +312,9 @@ run (GimpProcedure *procedure, GimpRunMode run_mode, GimpImage *image, GimpDrawa
                            _ ("Live is a window for artists. Scripts use plug-in-celdepth-popup."));
       return gimp_procedure_new_return_values (procedure, GIMP_PDB_CALLING_ERROR, error);
     }
+#ifdef G_OS_UNIX
+  setpriority (PRIO_PROCESS, 0, NICE); /* also of the threads that are made from now on */
+#endif
   gegl_init (NULL, NULL);
   show_window (image, config);
   return gimp_procedure_new_return_values (procedure, GIMP_PDB_SUCCESS, NULL);

@@ -17,7 +17,7 @@ EXAMPLE = os.path.join(os.environ['CELDEPTH_EXAMPLES'], 'frog')
 OUT = os.path.join(os.environ['CELDEPTH_OUT'], 'live')
 SCREEN = (3400, 1300)
 MAIN = (1350, 1150)         # the size of GIMP's window, which lies in the upper left corner
-ENTRY = 2                   # of Live in the menu Cartoon Depth, which is the third from the right
+ENTRY = 3                   # of Live in the menu Cartoon Depth, which is the third from the right
 PATIENCE = 60               # seconds
 
 
