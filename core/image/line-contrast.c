@@ -9,14 +9,20 @@
 
 #include <string.h>
 
-CELD_CLONES bool
-celd_any_byte_reaches (const uint8_t *value, size_t n, int least)
+CELD_CLONES static uint8_t
+largest_byte (const uint8_t *value, size_t n)
 {
   uint8_t most = 0;
 
   for (size_t i = 0; i < n; i++)
     most = value[i] > most ? value[i] : most;
-  return most >= least;
+  return most;
+}
+
+bool
+celd_any_byte_reaches (const uint8_t *value, size_t n, int least)
+{
+  return largest_byte (value, n) >= least;
 }
 
 CELD_CLONES static void
