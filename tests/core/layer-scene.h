@@ -86,6 +86,21 @@ layer_scene_paint (LayerScene *s, uint32_t label, const float colour[3], LayerSh
       }
 }
 
+/* Shares of pixels in a box, and outside its inside, which is 3 pixels from its edges. */
+static inline double
+box_share (double x, double y, double left, double top, double right, double bottom)
+{
+  double w = fmin (x + 0.5, right) - fmax (x - 0.5, left), h = fmin (y + 0.5, bottom) - fmax (y - 0.5, top);
+
+  return fmax (w, 0) * fmax (h, 0);
+}
+
+static inline double
+frame_share (double x, double y, double left, double top, double right, double bottom)
+{
+  return 1 - box_share (x, y, left + 3, top + 3, right - 3, bottom - 3);
+}
+
 /* The sheets of n labels, by their levels; the background is label 1. */
 static inline CeldSheets *
 layer_scene_sheets (const LayerScene *s, size_t n, const CeldHost *host)

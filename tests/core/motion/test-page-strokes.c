@@ -14,14 +14,6 @@ static const float RED[3] = { 1, 0, 0 }, BLUE[3] = { 0, 0, 1 }, BLACK[3] = { 0, 
 
 /* ------------------------------------------------------------------ shapes */
 
-static double
-box_share (double x, double y, double left, double top, double right, double bottom)
-{
-  double w = fmin (x + 0.5, right) - fmax (x - 0.5, left), h = fmin (y + 0.5, bottom) - fmax (y - 0.5, top);
-
-  return fmax (w, 0) * fmax (h, 0);
-}
-
 /* A box with an outline of three pixels. */
 #define BOX(name, left, top, right, bottom)                                                                      \
   static double name (double x, double y) { return box_share (x, y, left, top, right, bottom); }                 \
