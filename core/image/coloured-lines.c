@@ -2,7 +2,7 @@
  *
  * A line is darker in some channel than what lies on both sides of it (or lighter: then the picture is inverted first);
  * a fill is not.
- * 1. The width of lines: the closing by the right window finds nearly all that one twice as wide finds.
+ * 1. The width of lines, and whether they are darker or lighter than fills (line-width.c).
  * 2. Contrast: of each channel against its closing by a window a little wider than lines, which is the paper or the
  *    fill around; the largest of the three.
  * 3. Fills that are narrow between lines are told apart from wide lines (narrow-fills.c).
@@ -154,46 +154,6 @@ remove_noise (Lines *l)
   return status;
 }
 
-/* ------------------------------------------------------------------ the width of lines */
-
-CELD_CLONES static void
-take_luma (const uint8_t *restrict red, const uint8_t *restrict green, const uint8_t *restrict blue, size_t n,
-           uint8_t *restrict luma)
-{
-  for (size_t i = 0; i < n; i++)
-    luma[i] = (uint8_t) (0.2126f * red[i] + 0.7152f * green[i] + 0.0722f * blue[i] + 0.5f);
-}
-
-/* Finds whether lines are darker or lighter than what is beside them: those of a drawing have one width.  If they are
- * lighter, inverts the channels.  Sets l->level to the luma, inverted as well. */
-static CeldStatus
-find_polarity (Lines *l, int *radius)
-{
-  CeldHostPart part[2];
-  CeldHost     first = celd_host_part (&part[0], l->host, 0, 0.3), second = celd_host_part (&part[1], l->host, 0.3, 0.6);
-  int          other;
-  float        dark, light;
-  CeldStatus   status;
-
-  take_luma (l->channel[0].data, l->channel[1].data, l->channel[2].data, pixels (l), l->level.data);
-  status = celd_line_radius (&l->level, l->broadest, &first, l->work, &l->closed, radius, &dark);
-  if (status != CELD_OK || dark >= 0.95f)
-    return status;
-  celd_invert_bytes (&l->level);
-  status = celd_line_radius (&l->level, l->broadest, &second, l->work, &l->closed, &other, &light);
-  if (status != CELD_OK)
-    return status;
-  if (light <= dark)
-    {
-      celd_invert_bytes (&l->level);
-      return status;
-    }
-  for (int c = 0; c < 3; c++)
-    celd_invert_bytes (&l->channel[c]);
-  *radius = other;
-  return status;
-}
-
 /* ------------------------------------------------------------------ contrast */
 
 /* Sets l->contrast for lines up to 2 radius + 1 wide. */
@@ -235,7 +195,7 @@ find_faintest (Lines *l, int *faintest)
   return CELD_OK;
 }
 
-/* Takes what lies narrow between lines out of the contrast.  l->level holds the luma, and is overwritten. */
+/* Takes what lies narrow between lines out of the contrast.  l->level holds the lightness, and is overwritten. */
 static CeldStatus
 clear_narrow_fills (Lines *l, int radius, int faintest)
 {
@@ -389,13 +349,13 @@ write_lines (Lines *l, CeldDrawing *drawing)
 static CeldStatus
 find_lines (Lines *l, CeldDrawing *drawing)
 {
-  CeldHostPart part;
-  CeldHost     last = celd_host_part (&part, l->host, 0.8, 1);
+  CeldHostPart part[2];
+  CeldHost     first = celd_host_part (&part[0], l->host, 0, 0.6), last = celd_host_part (&part[1], l->host, 0.8, 1);
   int          radius, faintest;
   CeldStatus   status = measure_noise (l) > GRAINLESS ? remove_noise (l) : CELD_OK;
 
   if (status == CELD_OK)
-    status = find_polarity (l, &radius);
+    status = celd_line_window (l->channel, l->broadest, &first, l->work, &l->closed, &l->level, &radius);
   if (status == CELD_OK)
     status = measure_contrast (l, radius);
   if (status == CELD_OK)

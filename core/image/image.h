@@ -177,16 +177,15 @@ bool celd_is_coloured (const CeldMask channel[3]);
  * `spare` is overwritten, and so is `lines`; all have one size. */
 bool celd_sprite_lines (const CeldMask channel[3], bool only_coloured, void *work, CeldMask *spare, CeldMask *lines);
 
-/* line-width.c: the radius of the smallest closing that finds 95 % of the dark lines that one of about twice the radius
- * finds; if there is none, of the one with the largest such share.  *share is that share; `widest` limits the radius;
- * `work` is for twice the widest radius, `closed` is overwritten.  Of a large picture only bands of rows are looked
- * at. */
-CeldStatus celd_line_radius (const CeldMask *luma, int widest, const CeldHost *host, void *work, CeldMask *closed,
-                             int *radius, float *share);
+/* line-width.c: the radius of the window by which the lines of a drawing are found, in the closing of its channels.
+ * If lines are lighter than fills, inverts the channels.  Sets `lightness` to that of the channels, inverted as well.
+ * `broadest` limits the radius; `work` is for twice that, `closed` is overwritten; all have one size. */
+CeldStatus celd_line_window (CeldMask channel[3], int broadest, const CeldHost *host, void *work, CeldMask *closed,
+                             CeldMask *lightness, int *radius);
 
 /* narrow-fills.c: sets `contrast` to 0 where a fill is narrow between lines: lighter than its opening by `radius`, by a
- * contrast of `faintest` at least.  `luma`, `light` and `fill` are overwritten; `work` is for this radius. */
-void celd_clear_narrow_fills (CeldMask *luma, int radius, int faintest, void *work, CeldMask *light, CeldMask *fill,
+ * contrast of `faintest` at least.  `lightness`, `light` and `fill` are overwritten; `work` is for this radius. */
+void celd_clear_narrow_fills (CeldMask *lightness, int radius, int faintest, void *work, CeldMask *light, CeldMask *fill,
                               CeldMask *contrast);
 
 /* thick-lines.c: sets `thick` to 1 where some channel has at least half of the contrast of black against its closing by

@@ -60,14 +60,14 @@ clear_contrast (const uint8_t *restrict fill, size_t n, uint8_t *restrict contra
 }
 
 void
-celd_clear_narrow_fills (CeldMask *luma, int radius, int faintest, void *work, CeldMask *light, CeldMask *fill,
+celd_clear_narrow_fills (CeldMask *lightness, int radius, int faintest, void *work, CeldMask *light, CeldMask *fill,
                          CeldMask *contrast)
 {
-  size_t n = (size_t) luma->width * (size_t) luma->height;
+  size_t n = (size_t) lightness->width * (size_t) lightness->height;
 
-  celd_invert_bytes (luma);
-  celd_close_bytes (luma, radius, work, light);
-  measure_lightness (luma->data, n, light->data);
+  celd_invert_bytes (lightness);
+  celd_close_bytes (lightness, radius, work, light);
+  measure_lightness (lightness->data, n, light->data);
   memcpy (fill->data, light->data, n);
   celd_dilate_bytes (fill, (radius + 1) / 2, work);
   keep_lightest (light->data, faintest, n, fill->data);
