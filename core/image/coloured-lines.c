@@ -220,19 +220,37 @@ tone_of (Lines *l, size_t pixel)
   return &l->tone[tone];
 }
 
-/* Whether the pixel is in the middle of a line: none around has more contrast, and none within the window much more. */
-static bool
-is_core (const Lines *l, int x, int y, int faintest)
+/* The largest contrast of a pixel and those around it. */
+static int
+most_around (const Lines *l, int x, int y)
 {
-  int c = CELD_AT (&l->contrast, x, y);
+  int most = 0;
 
-  if (c < faintest || 5 * c < 3 * CELD_AT (&l->closed, x, y))
-    return false;
   for (int v = y > 0 ? y - 1 : 0; v <= y + 1 && v < l->contrast.height; v++)
     for (int u = x > 0 ? x - 1 : 0; u <= x + 1 && u < l->contrast.width; u++)
-      if (CELD_AT (&l->contrast, u, v) > c)
-        return false;
-  return true;
+      most = CELD_AT (&l->contrast, u, v) > most ? CELD_AT (&l->contrast, u, v) : most;
+  return most;
+}
+
+/* If the pixel is in the middle of a line, sets l->level to its contrast, and counts its tone where that is of the line
+ * alone.  None around has much more contrast (lines under a pixel wide are paler where they lie between two rows of
+ * pixels), and none within the window has very much more. */
+static void
+take_core (Lines *l, int x, int y, int faintest)
+{
+  int c = CELD_AT (&l->contrast, x, y), most;
+
+  if (c < faintest || 5 * c < 3 * CELD_AT (&l->closed, x, y))
+    return;
+  most = most_around (l, x, y);
+  if (5 * c < 4 * most)
+    return;
+  CELD_AT (&l->level, x, y) = (uint8_t) c;
+  if (c == most)
+    {
+      l->cores++;
+      ++*tone_of (l, (size_t) y * l->level.stride + (size_t) x);
+    }
 }
 
 /* Sets l->level to the contrast of the core of a line at each pixel next to one, and counts the tones of cores. */
@@ -249,12 +267,7 @@ find_cores (Lines *l, int radius, int faintest)
 
         if (celd_any_byte_reaches (&CELD_AT (&l->contrast, left, y), (size_t) (right - left), faintest)) /* few do */
           for (int x = left; x < right; x++)
-            if (is_core (l, x, y, faintest))
-              {
-                CELD_AT (&l->level, x, y) = CELD_AT (&l->contrast, x, y);
-                l->cores++;
-                ++*tone_of (l, (size_t) y * l->level.stride + (size_t) x);
-              }
+            take_core (l, x, y, faintest);
       }
   celd_dilate_bytes (&l->level, 1, l->work);
 }

@@ -62,7 +62,7 @@ celd_ink_echo (const CeldPlane *contrast, const CeldMask *around, float dark)
       }
   while (bin > 0 && 10 * (above += of[bin]) < all)
     bin--;
-  return (float) bin / (CELD_INK_BINS - 1);
+  return all ? (float) bin / (CELD_INK_BINS - 1) : 0;
 }
 
 void

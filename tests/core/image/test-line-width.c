@@ -1,5 +1,5 @@
 /* The windows by which lines of coloured drawings are found: lines of all widths, darker and lighter than fills, beside
- * fills that are narrow or nearly as dark.
+ * fills that are narrow or nearly as dark, and lines under a pixel wide.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -27,6 +27,14 @@ put (int x, int y, Tone tone, uint8_t invert)
   uint8_t rgba[4] = { tone.red ^ invert, tone.green ^ invert, tone.blue ^ invert, 255 };
 
   memcpy (art_of + 4 * (y * SIDE + x), rgba, sizeof rgba);
+}
+
+static Tone
+mixed (Tone a, Tone b, float share)
+{
+  return (Tone) { (uint8_t) ((float) a.red + share * (float) (b.red - a.red) + 0.5f),
+                  (uint8_t) ((float) a.green + share * (float) (b.green - a.green) + 0.5f),
+                  (uint8_t) ((float) a.blue + share * (float) (b.blue - a.blue) + 0.5f) };
 }
 
 static CeldStatus
@@ -107,11 +115,63 @@ lines_of_all_widths (void)
     }
 }
 
+/* A disc with a hairline on the page. */
+static void
+draw_ring (float radius, float width, Tone fill)
+{
+  for (int y = 0; y < SIDE; y++)
+    for (int x = 0; x < SIDE; x++)
+      {
+        float from  = hypotf ((float) (x - SIDE / 2), (float) (y - SIDE / 2)) - radius;
+        float share = fminf (fmaxf (0.5f * width + 0.5f - fabsf (from), 0), width);
+
+        put (x, y, mixed (mixed (fill, page, fminf (fmaxf (from + 0.5f, 0), 1)), brown, share), 0);
+      }
+}
+
+/* At how many of 1024 angles there is no ink within a pixel of the ring. */
+static int
+gaps_in_ring (float radius)
+{
+  int gaps = 0;
+
+  for (int k = 0; k < 1024; k++)
+    {
+      float angle = 6.2832f * (float) k / 1024, least = 1;
+
+      for (int step = -2; step <= 2; step++)
+        {
+          float r = radius + 0.5f * (float) step;
+          int   x = (int) (SIDE / 2 + r * cosf (angle) + 0.5f), y = (int) (SIDE / 2 + r * sinf (angle) + 0.5f);
+
+          least = fminf (least, luma_of[y * SIDE + x]);
+        }
+      gaps += least >= 0.5f;
+    }
+  return gaps;
+}
+
+/* Lines under a pixel wide are paler where they lie between two rows of pixels, and all of them may be pale. */
+static void
+hairlines_are_whole (void)
+{
+  static const Tone fills[] = { { 95, 200, 137 }, { 100, 117, 175 }, { 198, 99, 164 } };
+
+  for (int i = 0; i < 3; i++)
+    for (int tenths = 4; tenths <= 10; tenths++)
+      {
+        draw_ring (180.3f, 0.1f * (float) tenths, fills[i]);
+        CHECK (find () == CELD_OK);
+        CHECK (gaps_in_ring (180.3f) <= 32);
+      }
+}
+
 int
 main (void)
 {
   RUN (broad_lines_beside_thin_ones);
   RUN (broad_lines_between_strong_colours);
   RUN (lines_of_all_widths);
+  RUN (hairlines_are_whole);
   return DONE;
 }
