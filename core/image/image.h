@@ -80,6 +80,11 @@ bool celd_ink_shows_level (const CeldPlane *contrast, int x, int y, float dark);
  * CELD_NO_MEMORY is the only failure; then `smooth` is as it was. */
 CeldStatus celd_ink_smooth_lines (const CeldPlane *contrast, float noise, CeldPlane *smooth);
 
+/* ------------------------------------------------------------------ ink-grain.c */
+
+/* Fills small holes in the ink of a noisy drawing.  `known`, a tight mask of the same size, is overwritten. */
+void celd_ink_fill_grain (CeldPlane *ink, CeldMask *known);
+
 /* ------------------------------------------------------------------ ink and paper */
 
 /* Whether a value of ink (0 = ink, 1 = paper) is paper; NaN is. */

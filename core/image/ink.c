@@ -7,6 +7,7 @@
  * 3. Ink: the contrast, divided by that of the drawing's dark strokes, or of the stroke itself where that is pale:
  *    LazyBrush [SDC09b] uses the response of a LoG filter for the same purpose, to keep faint contours.  Here a stroke
  *    is what a grey opening removes, so that flat grey areas keep their grey.
+ * 4. In a noisy drawing, holes of grain in ink are filled (ink-grain.c).
  *
  * Cost: O(pixels), independent of the width of strokes; 6 bytes a pixel, 13 if there is noise.  What is taken from
  * windows (levels, areas) is kept in bytes, in 255ths: finer steps would not be seen.
@@ -392,6 +393,8 @@ celd_ink (const CeldDrawing *drawing, CeldInkMode mode, const CeldHost *host, Ce
     }
   if (status == CELD_OK)
     write_ink (&w, pale, ink);
+  if (status == CELD_OK && w.noisy)
+    celd_ink_fill_grain (ink, &w.level);
   end_work (&w);
   return status;
 }
