@@ -11,7 +11,7 @@
 #include <string.h>
 
 #define BRIGHT   0.85f /* values of ink from here on are paper without doubt; chosen */
-#define MAX_SIDE 32    /* pixels, width and height of a hole: two grains of the widest that are looked for, run together */
+#define MAX_SIDE 32    /* pixels, width and height of a hole: two of the widest grains that are looked for, together */
 
 /* What is known of a grey pixel: nothing yet, that it is in the piece at hand, or that it was in no hole. */
 enum { UNVISITED, IN_PIECE, NO_HOLE };

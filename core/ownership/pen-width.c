@@ -23,13 +23,17 @@
 #define SAMPLE_SHARE       0.25f /* share of the outline over which a pen's variation is measured, at least; chosen */
 #define MIN_SAMPLE         0.1f  /* the same if the other contacts are far thicker; chosen */
 #define THICK_QUANTILE     0.9   /* quantile of thickness where a pen is widest, but for junctions; chosen */
+#define MAX_SPREAD         0.7f  /* ratio to the typical width by which a pen is thicker where it is widest, at most;
+                                  * chosen */
 #define MIN_WIDER          1.4f  /* ratio of thickness at two contacts that are not one pen's alone; chosen */
 #define DISTINCT_SPREADS   1.5f  /* a contact is thickened if it is thicker than the pen's sample by so many times what
                                   * pens vary, */
 #define DISTINCT_PIXELS    0.5f  /* and so many pixels; chosen */
 #define SUBPIXELS          16.f  /* widths are rounded to 1/16 pixel, the precision of edges */
 #define MIN_SWELL          1.04f /* ratio to the typical width that is allowed in any case; chosen */
-#define MAX_SWELL          1.25f /* ratio to the typical width that is never exceeded; chosen */
+#define MAX_SWELL          1.4f  /* ratio to the typical width that is never exceeded; chosen */
+#define MIN_STROKES        4     /* widths of the drawing's lines; a shorter outline does not show how a pen varies;
+                                  * chosen */
 #define MAX_SLOPE          0.05f /* pixels of width per pixel along the line, at most; chosen */
 #define MEDIAN_RADIUS      4     /* samples to either side of a median */
 #define MAX_LINE_THICKNESS 2.5f  /* pen widths; thicker ink is not one line; chosen */
@@ -79,13 +83,16 @@ quantile (float *width, size_t n, double fraction)
   return roundf (SUBPIXELS * select_quantile (width, n, (size_t) (fraction * (double) n))) / SUBPIXELS;
 }
 
+/* Sets typical and largest width of a pen.  A shorter outline is mostly junctions. */
 static void
-set_pen_widths (float *width, size_t n, float *typical, float *max)
+set_pen_widths (float *width, size_t n, int stroke, float *typical, float *max)
 {
   float thin = quantile (width, n, THIN_QUANTILE);
 
   *typical = quantile (width, n, TYPICAL_QUANTILE);
-  *max  = fminf (SPREAD_FACTOR * (*typical - thin) + MIN_SWELL * *typical, MAX_SWELL * *typical);
+  *max  = MIN_SWELL * *typical;
+  if (n >= MIN_STROKES * (size_t) stroke)
+    *max = fminf (*max + SPREAD_FACTOR * (*typical - thin), MAX_SWELL * *typical);
 }
 
 /* ------------------------------------------------------------------ by neighbours */
@@ -200,7 +207,7 @@ sample_pen (const CeldContourPens *pens, const PenSort *s, uint32_t label)
   if (!n)
     return (PenSample) { 0 };
   typical = quantile (s->width, n, TYPICAL_QUANTILE);
-  return (PenSample) { typical, quantile (s->width, n, THICK_QUANTILE) - typical, n };
+  return (PenSample) { typical, fminf (quantile (s->width, n, THICK_QUANTILE) - typical, MAX_SPREAD * typical), n };
 }
 
 typedef struct { float variation; size_t points; } Variation;
@@ -236,24 +243,15 @@ find_variation (const PenSort *s, size_t labels, float *variation)
   return CELD_OK;
 }
 
-/* Typical thickness of contacts that shows another line beside the pen's: more than `least`, at most `most`. */
-typedef struct { float least, most; } Thickened;
-
-/* Such a contact is clearly thicker than the pen is where it is thinnest, but not thicker than both pens side by side.
- * Otherwise the pen itself varies, as brushes do: as much as in its sample, or as others of the drawing. */
-static Thickened
-find_thickened (const CeldContourPens *pens, const PenSort *s, uint32_t label, size_t contacts, float variation)
+/* The typical thickness beyond which a contact shows another line beside the pen's: it is clearly thicker than the pen
+ * is where it is thinnest.  Up to there the pen itself varies, as brushes do: as much as in its sample, or as others of
+ * the drawing. */
+static float
+most_of_pen (PenSample sample, float variation)
 {
-  PenSample sample = s->sample[label - 1];
-  float     widest = 0;
-
-  for (size_t k = 0; k < contacts; k++)
-    widest = fmaxf (widest, pens->typical_width[pen_back (pens, &pens->pen[s->point[s->contact[k].first]]) - 1]);
-  if (!sample.points)
-    return (Thickened) { INFINITY, 0 };
-  return (Thickened) { sample.typical + DISTINCT_PIXELS +
-                       DISTINCT_SPREADS * fmaxf (sample.spread, variation * sample.typical),
-                       sample.typical + DISTINCT_PIXELS + widest };
+  return sample.points ? sample.typical + DISTINCT_PIXELS +
+                         DISTINCT_SPREADS * fmaxf (sample.spread, variation * sample.typical)
+                       : INFINITY;
 }
 
 /* Measures the pen of a label at the contacts where the ink shows it alone, and marks the points of the others; the
@@ -261,21 +259,21 @@ find_thickened (const CeldContourPens *pens, const PenSort *s, uint32_t label, s
 static void
 measure_label (uint32_t label, float variation, PenSort *s, CeldContourPens *pens)
 {
-  size_t    n = 0, contacts = list_contacts (pens, s, label);
-  Thickened range = find_thickened (pens, s, label, contacts, variation);
+  size_t n = 0, contacts = list_contacts (pens, s, label);
+  float  most = most_of_pen (s->sample[label - 1], variation);
 
   for (size_t k = 0; k < contacts; k++)
     {
       const PenContact *c = &s->contact[k];
 
-      if (!(c->typical > range.least && c->typical <= range.most))
+      if (c->typical <= most)
         n += read_contact (pens, s, c->first, c->end, s->width + n) - c->first;
       else
         for (size_t i = c->first; i < c->end; i++)
           pens->pen[s->point[i]].thickened = 1;
     }
   if (n)
-    set_pen_widths (s->width, n, &pens->typical_width[label - 1], &pens->max_width[label - 1]);
+    set_pen_widths (s->width, n, pens->edges->stroke, &pens->typical_width[label - 1], &pens->max_width[label - 1]);
 }
 
 static int
