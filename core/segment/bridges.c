@@ -6,6 +6,9 @@
  * on both sides differ.  Two straight ends that face each other over a short gap are nearly ink; the farther apart they
  * are and the more the line has to turn, the fainter their bridge is drawn, and the more a boundary on it costs.
  *
+ * An end without a partner may have reached as far as the line that it points at.  That is a mere guess: strokes that
+ * only adorn a part end in the same way.
+ *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "base/base.h"
@@ -23,6 +26,7 @@
 #define DOUBTFUL_LENGTH 12     /* from here on it is a guess */
 #define CERTAIN_COSINE  0.94   /* of the larger angle by which it turns: certain up to 20 degrees */
 #define DOUBTFUL_COSINE 0.5    /* a guess from 60 degrees on */
+#define MOST_AHEAD      6      /* stroke widths from a single end to the ink that it points at, at most (chosen) */
 
 typedef struct
 {
@@ -107,30 +111,71 @@ walk (BridgeBuilder *b, const CeldPlace *place, size_t n, double clear, CeldBrid
   return status;
 }
 
+/* Adds a bridge along the curve unless something stands in its way; *built says whether it did. */
 static CeldStatus
-build (BridgeBuilder *b, const CeldTipPair *pair)
+build (BridgeBuilder *b, const CeldPlace *place, size_t n, bool ahead, bool *built)
+{
+  CeldBridge bridge = { .first = b->bridges->n_pixels, .ahead = ahead };
+  bool       open = true;
+  CeldStatus status = walk (b, place, n, fmax (b->stroke, 2), &bridge, &open);
+
+  *built = status == CELD_OK && open && bridge.n;
+  if (*built)
+    return celd_append (b->bridges->item, b->bridges->n, b->bridges->item_capacity, bridge);
+  b->bridges->n_pixels = bridge.first;
+  return status;
+}
+
+static CeldStatus
+build_between (BridgeBuilder *b, const CeldTipPair *pair)
 {
   CeldLineEnd from = end_of (&b->tip[pair->a]), to = end_of (&b->tip[pair->b]);
   CeldPlace   place[CELD_CURVE_PLACES];
   size_t      n = celd_curve_draw (&from, &to, place);
-  CeldBridge  bridge = { b->bridges->n_pixels, 0, 0 };
-  bool        open = true;
+  bool        built;
   CeldStatus  status;
 
   b->faintness = FAINTEST_INK * (float) (1 - certainty (&b->tip[pair->a], &b->tip[pair->b], b->stroke));
-  status = walk (b, place, n, fmax (b->stroke, 2), &bridge, &open);
-  if (status != CELD_OK || !open || !bridge.n)
-    {
-      b->bridges->n_pixels = bridge.first;
-      return status;
-    }
-  if (celd_append (b->bridges->item, b->bridges->n, b->bridges->item_capacity, bridge) != CELD_OK)
-    return CELD_NO_MEMORY;
-  b->taken[pair->a] = b->taken[pair->b] = true;
-  return CELD_OK;
+  status       = build (b, place, n, false, &built);
+  if (built)
+    b->taken[pair->a] = b->taken[pair->b] = true;
+  return status;
 }
 
-/* Joins line ends, the cheapest pair first. */
+/* Finds where a line, continued straight from its end, meets ink; false if it does not within MOST_AHEAD. */
+static bool
+find_ink_ahead (const BridgeBuilder *b, const CeldTip *tip, CeldPlace *place)
+{
+  bool left = false; /* the line's own ink, in which a tip may lie */
+
+  for (double t = 0; t <= MOST_AHEAD * b->stroke; t += 0.5)
+    {
+      int x, y;
+
+      *place = (CeldPlace) { tip->x + t * tip->dx, tip->y + t * tip->dy };
+      x      = (int) floor (place->x);
+      y      = (int) floor (place->y);
+      if (x < 0 || y < 0 || x >= b->ink->width || y >= b->ink->height)
+        return false;
+      if (celd_is_paper (CELD_AT (b->ink, x, y)))
+        left = true;
+      else if (left)
+        return true;
+    }
+  return false;
+}
+
+static CeldStatus
+build_ahead (BridgeBuilder *b, const CeldTip *tip)
+{
+  CeldPlace place[2] = { { tip->x, tip->y } };
+  bool      built;
+
+  b->faintness = FAINTEST_INK;
+  return find_ink_ahead (b, tip, &place[1]) ? build (b, place, 2, true, &built) : CELD_OK;
+}
+
+/* Joins line ends, the cheapest pair first, and then single ends with what lies ahead of them. */
 static CeldStatus
 build_all (BridgeBuilder *b, const CeldHost *host)
 {
@@ -143,9 +188,12 @@ build_all (BridgeBuilder *b, const CeldHost *host)
       status = celd_tip_pairs_next (pairs, b->taken, host, &pair);
       if (status != CELD_OK || !pair)
         break;
-      status = build (b, pair);
+      status = build_between (b, pair);
     }
   celd_tip_pairs_free (pairs);
+  for (size_t i = 0; i < b->n && status == CELD_OK; i++)
+    if (!b->taken[i])
+      status = build_ahead (b, &b->tip[i]);
   return status;
 }
 
@@ -250,87 +298,7 @@ celd_bridges_draw (const CeldBridges *bridges, CeldPlane *ink)
     }
 }
 
-/* ------------------------------------------------------------------ components and enclosures over bridges */
-
-/* Joins the parts on both sides of bridges longer than `length` pixels. */
-static void
-join (const CeldBridges *bridges, double length, const CeldPlane *ink, const CeldBasins *basins, const uint32_t *part,
-      uint32_t *parent)
-{
-  for (size_t i = 0; i < bridges->n; i++)
-    for (size_t k = 0; k < bridges->item[i].n && bridges->item[i].length > length; k++)
-      {
-        CeldBridgePixel p = bridges->pixel[bridges->item[i].first + k];
-        uint32_t        mine = part[celd_basin_at (basins, p.x, p.y)];
-
-        for (int y = p.y > 0 ? p.y - 1 : 0; y <= p.y + 1 && y < ink->height; y++)
-          for (int x = p.x > 0 ? p.x - 1 : 0; x <= p.x + 1 && x < ink->width; x++)
-            if ((x == p.x) != (y == p.y) && celd_is_paper (CELD_AT (ink, x, y)))
-              {
-                uint32_t other = part[celd_basin_at (basins, x, y)];
-
-                if (mine && other)
-                  celd_join (parent, mine, other);
-              }
-      }
-}
-
-/* Renumbers the parts by their first basins. */
-static void
-renumber (uint32_t *parent, uint32_t *number, size_t n, uint32_t *part, size_t *n_parts)
-{
-  *n_parts = 0;
-  for (size_t k = 0; k < n; k++)
-    if (part[k])
-      {
-        uint32_t root = celd_root (parent, part[k]);
-
-        if (!number[root])
-          number[root] = (uint32_t) ++*n_parts;
-        part[k] = number[root];
-      }
-}
-
-static CeldStatus
-join_parts (const CeldBridges *bridges, double length, const CeldPlane *ink, const CeldBasins *basins, uint32_t *part,
-            size_t *n_parts)
-{
-  uint32_t *parent = celd_alloc (*n_parts + 1, sizeof *parent), *number = celd_alloc0 (*n_parts + 1, sizeof *number);
-  bool      enough = parent && number;
-
-  if (enough)
-    {
-      celd_roots (parent, *n_parts + 1);
-      join (bridges, length, ink, basins, part, parent);
-      renumber (parent, number, basins->n, part, n_parts);
-    }
-  celd_free (parent);
-  celd_free (number);
-  return enough ? CELD_OK : CELD_NO_MEMORY;
-}
-
-CeldStatus
-celd_bridges_join (const CeldBridges *bridges, const CeldPlane *ink, CeldBasins *basins)
-{
-  CeldStatus status = join_parts (bridges, 0, ink, basins, basins->component, &basins->n_components);
-
-  if (status == CELD_OK)
-    status = join_parts (bridges, 2.0 * basins->stroke, ink, basins, basins->enclosure, &basins->n_enclosures);
-  return status;
-}
-
 /* ------------------------------------------------------------------ basins of a drawing with bridges */
-
-/* Copies the components before they are joined over bridges. */
-static CeldStatus
-keep_components (const CeldBasins *basins, uint32_t **bridged_component)
-{
-  *bridged_component = celd_alloc (basins->n, sizeof **bridged_component);
-  if (!*bridged_component)
-    return CELD_NO_MEMORY;
-  memcpy (*bridged_component, basins->component, basins->n * sizeof **bridged_component);
-  return CELD_OK;
-}
 
 CeldStatus
 celd_bridges_make_basins (const CeldPlane *ink, CeldRect *changed, float threshold, const CeldHost *host,
@@ -353,9 +321,7 @@ celd_bridges_make_basins (const CeldPlane *ink, CeldRect *changed, float thresho
   if (status == CELD_OK)
     status = celd_basins_make (made.n ? &copy : ink, changed, threshold, &make, basins);
   if (status == CELD_OK && made.n)
-    status = keep_components (basins, bridged_component);
-  if (status == CELD_OK)
-    status = celd_bridges_join (&made, ink, basins);
+    status = celd_bridges_join (&made, ink, basins, bridged_component);
   celd_free (copy.data);
   if (status != CELD_OK)
     {

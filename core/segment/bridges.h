@@ -38,7 +38,8 @@ CeldStatus celd_tip_pairs_next (CeldTipPairs *pairs, const bool *taken, const Ce
  * not paper if it is a mere guess. */
 typedef struct { int32_t x, y; float ink; } CeldBridgePixel;
 
-typedef struct { size_t first, n; double length; } CeldBridge;  /* its pixels, from end to end; its length in pixels */
+/* Its pixels, from end to end; its length in pixels; does it go on from a single end to the ink ahead? */
+typedef struct { size_t first, n; double length; bool ahead; } CeldBridge;
 
 typedef struct
 {
@@ -50,7 +51,7 @@ typedef struct
 } CeldBridges;
 
 /* Finds bridges between line ends that point to each other with nothing but paper between them; each end has one at
- * most.  Makes the record. */
+ * most.  A single end has a faint one to the ink that it points at nearby.  Makes the record. */
 CeldStatus celd_bridges_find (const CeldPlane *ink, int stroke, const CeldHost *host, CeldBridges *bridges);
 void       celd_bridges_clear (CeldBridges *bridges);            /* accepts a zeroed record */
 
@@ -61,16 +62,19 @@ void celd_bridges_draw (const CeldBridges *bridges, CeldPlane *ink);
 /* Enlarges *changed by the pixels that only one of the two records has, or that differ in ink. */
 CeldStatus celd_bridges_compare (const CeldBridges *old, const CeldBridges *new, CeldRect *changed);
 
-/* Joins components over bridges, and enclosures over bridges longer than two stroke widths.  `ink` is without bridges.
- */
-CeldStatus celd_bridges_join (const CeldBridges *bridges, const CeldPlane *ink, CeldBasins *basins);
-
 /* Finds the bridges of a drawing, and makes the basins of the drawing with its bridges.  `changed`: where the drawing
  * differs from that of *bridges and *basins; it is enlarged to where bridges differ.  NULL: both are made from the
- * beginning.  *bridged_component must be NULL; it becomes each basin's component with bridges as lines, or stays NULL
- * without bridges; the caller frees it.  After a failure *bridges are the old ones, while *basins may be of the new
+ * beginning.  *bridged_component must be NULL; it is as by celd_bridges_join, or stays NULL without bridges.  After a failure *bridges are the old ones, while *basins may be of the new
  * drawing. */
 CeldStatus celd_bridges_make_basins (const CeldPlane *ink, CeldRect *changed, float threshold, const CeldHost *host,
                                      CeldBridges *bridges, CeldBasins *basins, uint32_t **bridged_component);
+
+/* ------------------------------------------------------------------ bridge-joins.c */
+
+/* Joins components over bridges, and enclosures over bridges that are longer than two stroke widths or have one end
+ * only.  `ink` is without bridges.  *bridged_component becomes each basin's component with bridges between two line ends
+ * as lines, which the caller frees. */
+CeldStatus celd_bridges_join (const CeldBridges *bridges, const CeldPlane *ink, CeldBasins *basins,
+                              uint32_t **bridged_component);
 
 #endif

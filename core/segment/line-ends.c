@@ -17,7 +17,8 @@
 
 #define ARM_LENGTH   1.25 /* stroke widths along the outline to either side */
 #define SHORTEST_ARM 6    /* pixels of such an arm, at least */
-#define SCALES       3    /* lengths of arms that are tried, each twice the one before */
+#define SCALES       9    /* lengths of arms that are tried */
+#define SCALE_FACTOR 1.4  /* each is so many times the one before it */
 #define SHARP_TURN   0.6  /* distance of both arms' ends, relative to the arms' lengths: a right angle has 0.71 */
 #define CERTAIN_TIP  0.42 /* the largest such value for a line whose direction cannot be fitted */
 #define SAME_END     0.75 /* line widths: ends closer than this are the same */
@@ -118,15 +119,17 @@ follow (LineEndSearch *s, int x, int y)
 
 /* ------------------------------------------------------------------ where outlines turn back */
 
-/* The distance of both arms' ends at corner i relative to the arms' lengths; *middle is between them. */
+/* The distance of both arms' ends at corner i relative to the arms' lengths; *span: that distance; *middle is between
+ * them. */
 static double
-sharpness (const LineEndSearch *s, size_t i, size_t arm, CeldPlace *middle)
+sharpness (const LineEndSearch *s, size_t i, size_t arm, CeldPlace *middle, double *span)
 {
   CeldCorner p = s->corner[i], a = s->corner[(i + s->n - arm) % s->n], b = s->corner[(i + arm) % s->n];
   double     length = hypot (a.x - p.x, a.y - p.y) + hypot (b.x - p.x, b.y - p.y);
 
   *middle = (CeldPlace) { 0.5 * (a.x + b.x), 0.5 * (a.y + b.y) };
-  return length > 0 ? hypot (a.x - b.x, a.y - b.y) / length : 1;
+  *span = hypot (a.x - b.x, a.y - b.y);
+  return length > 0 ? *span / length : 1;
 }
 
 /* The column or row of cells of a coordinate, clamped to the picture. */
@@ -201,34 +204,36 @@ try_corner (LineEndSearch *s, CeldCorner corner, CeldPlace middle, double sharp)
   return add_tip (s, end);
 }
 
-/* Examines the sharpest corner of each turn of the outline. */
+/* Examines one corner of each turn of the outline: where both sides of the line are nearest.  That is in the middle of
+ * its end even if the end is hollow, with sharper corners at both sides. */
 static CeldStatus
 search_outline (LineEndSearch *s, size_t arm)
 {
   size_t     step = arm / 8 ? arm / 8 : 1;
   CeldStatus status = CELD_OK;
 
-  if (s->n < 4 * arm)
+  if (2 * s->n < 7 * arm)
     return CELD_OK;
   for (size_t i = 0; i < s->n && status == CELD_OK; i += step)
     {
       CeldPlace middle, other;
-      double    least = sharpness (s, i, arm, &middle);
+      double    span, least_span, least = sharpness (s, i, arm, &middle, &least_span);
       size_t    best = i;
 
       if (least > SHARP_TURN)
         continue;
       for (; i < s->n; i += step) /* to the end of the turn */
         {
-          double sharp = sharpness (s, i, arm, &other);
+          double sharp = sharpness (s, i, arm, &other, &span);
 
           if (sharp > SHARP_TURN)
             break;
-          if (sharp < least)
+          least = fmin (least, sharp);
+          if (span < least_span)
             {
-              least  = sharp;
-              best   = i;
-              middle = other;
+              least_span = span;
+              best       = i;
+              middle     = other;
             }
         }
       status = try_corner (s, s->corner[best], middle, least);
@@ -239,12 +244,12 @@ search_outline (LineEndSearch *s, size_t arm)
 static CeldStatus
 search_from (LineEndSearch *s, int x, int y)
 {
-  size_t     arm = (size_t) fmax (SHORTEST_ARM, ARM_LENGTH * s->stroke);
+  double     arm = fmax (SHORTEST_ARM, ARM_LENGTH * s->stroke);
   CeldStatus status = follow (s, x, y);
 
   s->outline++;
-  for (int scale = 0; scale < SCALES && status == CELD_OK; scale++, arm *= 2)
-    status = search_outline (s, arm);
+  for (int scale = 0; scale < SCALES && status == CELD_OK; scale++, arm *= SCALE_FACTOR)
+    status = search_outline (s, (size_t) arm);
   return status;
 }
 
