@@ -173,28 +173,49 @@ arrangement (const CeldLiveSolver *s, int picture)
 }
 
 static gboolean
-write (CeldLiveSolver *s, int picture, gboolean preview, GeglBuffer *buffer, GError **error)
+write (CeldLiveSolver *s, const CeldLiveAnswer *answer, gboolean preview, GeglBuffer *buffer, GError **error)
 {
   if (preview)
     return celd_pipeline_write_preview (s->pipeline, go_on, s, buffer, error);
-  if (picture >= CELD_LIVE_STEREO)
-    return celd_pipeline_write_views (s->pipeline, arrangement (s, picture), buffer, error);
-  return celd_pipeline_write (s->pipeline, (CeldPicture) picture, buffer, error);
+  if (answer->picture == CELD_LIVE_RELIEF)
+    return celd_pipeline_write_turned (s->pipeline, answer->frame, CELD_LIVE_FRAMES, go_on, s, buffer, error);
+  if (answer->picture >= CELD_LIVE_STEREO)
+    return celd_pipeline_write_views (s->pipeline, arrangement (s, answer->picture), buffer, error);
+  return celd_pipeline_write (s->pipeline, (CeldPicture) answer->picture, buffer, error);
+}
+
+static void
+set_size (const CeldLiveSolver *s, gboolean preview, CeldLiveAnswer *answer)
+{
+  const CeldLiveRequest *r = s->request;
+
+  answer->scale  = 1;
+  answer->width  = r->input.width;
+  answer->height = r->input.height;
+  if (preview)
+    {
+      answer->scale  = 4;
+      answer->width  = (answer->width + 3) / 4;
+      answer->height = (answer->height + 3) / 4;
+    }
+  else if (answer->picture == CELD_LIVE_RELIEF)
+    {
+      answer->scale  = (double) r->input.width / r->relief_width;
+      answer->width  = r->relief_width;
+      answer->height = r->relief_height;
+    }
+  else if (answer->picture >= CELD_LIVE_STEREO)
+    celd_stereo_size (arrangement (s, answer->picture), &answer->width, &answer->height);
 }
 
 static gboolean
-show (CeldLiveSolver *s, int picture, gboolean preview, GError **error)
+show_frame (CeldLiveSolver *s, int picture, int frame, gboolean preview, GError **error)
 {
-  const CeldPipelineInput *input = &s->request->input;
-  CeldLiveAnswer           answer = { .picture = picture, .width = input->width, .height = input->height,
-                                      .scale = preview ? 4 : 1 };
-  GeglBuffer              *buffer;
-  gboolean                 good;
+  CeldLiveAnswer answer = { .picture = picture, .frame = frame };
+  GeglBuffer    *buffer;
+  gboolean       good;
 
-  if (picture >= CELD_LIVE_STEREO)
-    celd_stereo_size (arrangement (s, picture), &answer.width, &answer.height);
-  answer.width  = (answer.width + answer.scale - 1) / answer.scale;
-  answer.height = (answer.height + answer.scale - 1) / answer.scale;
+  set_size (s, preview, &answer);
   answer.pixels = g_try_malloc_n ((gsize) answer.width * (gsize) answer.height, 4);
   if (!answer.pixels)
     {
@@ -204,13 +225,30 @@ show (CeldLiveSolver *s, int picture, gboolean preview, GError **error)
   buffer = gegl_buffer_linear_new_from_data (answer.pixels, babl_format ("cairo-ARGB32"),
                                              GEGL_RECTANGLE (0, 0, answer.width, answer.height), GEGL_AUTO_ROWSTRIDE,
                                              NULL, NULL);
-  good = write (s, picture, preview, buffer, error);
+  good = write (s, &answer, preview, buffer, error);
   g_object_unref (buffer);
   if (good)
     send (s, answer);
   else
     g_free (answer.pixels);
   s->has_shown = s->has_shown || good;
+  return good;
+}
+
+static gboolean
+show (CeldLiveSolver *s, int picture, gboolean preview, GError **error)
+{
+  return show_frame (s, picture, 0, preview, error);
+}
+
+static gboolean
+show_relief (CeldLiveSolver *s, GError **error)
+{
+  gboolean good = show_frame (s, CELD_LIVE_RELIEF, CELD_LIVE_MIDDLE, FALSE, error);
+
+  for (int step = CELD_LIVE_MIDDLE; step; step /= 2)
+    for (int frame = step == CELD_LIVE_MIDDLE ? 0 : step; frame < CELD_LIVE_FRAMES && good; frame += 2 * step)
+      good = show_frame (s, CELD_LIVE_RELIEF, frame, FALSE, error);
   return good;
 }
 
@@ -226,9 +264,14 @@ static gboolean
 make (CeldLiveSolver *s, int picture, GError **error)
 {
   gint64   begin = g_get_monotonic_time ();
-  gboolean good = picture >= CELD_LIVE_STEREO ? make_views (s, error)
-                                              : celd_pipeline_make (s->pipeline, 1u << picture, go_on, s, error);
+  gboolean good;
 
+  if (picture == CELD_LIVE_RELIEF)
+    good = celd_pipeline_make_relief (s->pipeline, go_on, s, error);
+  else if (picture >= CELD_LIVE_STEREO)
+    good = make_views (s, error);
+  else
+    good = celd_pipeline_make (s->pipeline, 1u << picture, go_on, s, error);
   if (picture == CELD_PICTURE_DEPTH)
     s->depth_took = g_get_monotonic_time () - begin;
   return good;
@@ -239,7 +282,7 @@ send_buffer (CeldLiveSolver *s, int picture, GError **error)
 {
   GeglRectangle  image = { 0, 0, s->request->input.width, s->request->input.height };
   CeldLiveAnswer answer = { .picture = picture, .buffer = gegl_buffer_new (&image, s->request->format[picture]) };
-  gboolean       good = write (s, picture, FALSE, answer.buffer, error);
+  gboolean       good = write (s, &answer, FALSE, answer.buffer, error);
 
   if (good)
     send (s, answer);
@@ -271,7 +314,8 @@ make_others (CeldLiveSolver *s, GError **error)
     good = show (s, CELD_PICTURE_DEPTH, TRUE, error);
   for (int picture = 0; picture < CELD_LIVE_N_PICTURES && good; picture++)
     if (picture != CELD_PICTURE_REGIONS && r->shown & 1u << picture)
-      good = make (s, picture, error) && show (s, picture, FALSE, error);
+      good = make (s, picture, error) &&
+             (picture == CELD_LIVE_RELIEF ? show_relief (s, error) : show (s, picture, FALSE, error));
   for (int picture = 0; picture < CELD_N_PICTURES && good; picture++)
     if (r->format[picture])
       good = make (s, picture, error) && send_buffer (s, picture, error);

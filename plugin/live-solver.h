@@ -11,14 +11,20 @@
 
 #include "pipeline.h"
 
-/* Beside the pictures of the pipeline: both views, arranged as settings.stereo says; and each of them. */
-enum { CELD_LIVE_STEREO = CELD_N_PICTURES, CELD_LIVE_LEFT, CELD_LIVE_RIGHT, CELD_LIVE_N_PICTURES };
+/* Beside the pictures of the pipeline: both views, arranged as settings.stereo says; each of them; and the relief, of
+ * which there are CELD_LIVE_FRAMES pictures. */
+enum { CELD_LIVE_STEREO = CELD_N_PICTURES, CELD_LIVE_LEFT, CELD_LIVE_RIGHT, CELD_LIVE_RELIEF, CELD_LIVE_N_PICTURES };
+
+/* Of the relief, from one side to the other.  The one in the middle is made first, then every 16th, 8th and so on. */
+#define CELD_LIVE_FRAMES 33
+#define CELD_LIVE_MIDDLE (CELD_LIVE_FRAMES / 2)
 
 /* Owns its buffers, which must not change any more, and its texts. */
 typedef struct
 {
   CeldPipelineInput input;
   guint             shown;                      /* pictures to be shown, as bits */
+  int               relief_width, relief_height; /* of its pictures, not larger than the image */
   const Babl       *format[CELD_N_PICTURES];    /* formats of pictures that are wanted as buffers, too; else NULL */
 } CeldLiveRequest;
 
@@ -32,7 +38,8 @@ typedef struct
   int         picture;           /* that the pixels or the buffer are of */
   guint8     *pixels;            /* "cairo-ARGB32", without gaps between rows; NULL: none */
   int         width, height;     /* of the pixels */
-  int         scale;             /* each is so many pixels of the image wide: more than 1 in a preview */
+  double      scale;             /* each is so many pixels of the image wide: more than 1 in a preview */
+  int         frame;             /* of the relief: which of its pictures */
   GeglBuffer *buffer;            /* NULL: none */
   GArray     *problems;          /* CeldPipelineProblem; NULL: they are not known yet */
   char       *error;             /* why there is no more, a sentence for the artist; NULL: nothing failed */

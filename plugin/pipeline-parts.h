@@ -17,6 +17,10 @@ struct CeldPipeline
   const CeldOrder *order;             /* of the session; NULL: not made */
   CeldLayers      *layers;            /* NULL: not cut */
   CeldColours      view[2];           /* of the left and the right eye; data NULL: not made */
+  CeldLayers      *relief_layers;     /* of the relief: lit and completed; NULL: not made */
+  CeldPlane        relief_depth;      /* of the relief: its heights as depth in [0,1] */
+  CeldScene       *relief;            /* of these two; NULL: not made */
+  double           relief_height;     /* pixels from its farthest point to its nearest */
   char            *note;              /* for the artist, beside the problems of the session; NULL: nothing */
 };
 
@@ -54,5 +58,14 @@ gboolean celd_pipeline_check_grey (const CeldPipelineLayer *layer, GError **erro
 
 /* Replaces a picture (data may be NULL) by a copy of the art. */
 CeldStatus celd_pipeline_copy_art (const CeldPipeline *p, CeldColours *copy);
+
+/* Has layers completed, or again as the settings say. */
+CeldStatus celd_pipeline_complete_layers (CeldPipeline *p, bool complete);
+/* Cuts colours of the image's size, which are limited to [0,1] in place.  Replaces *layers (may be NULL). */
+CeldStatus celd_pipeline_cut_colours (CeldPipeline *p, CeldColours *colours, CeldStore store, const CeldHost *host,
+                                      CeldLayers **layers);
+
+/* Frees what celd_pipeline_make_relief has made. */
+void celd_pipeline_drop_relief (CeldPipeline *p);
 
 #endif

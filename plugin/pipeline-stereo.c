@@ -12,8 +12,8 @@
 #define BEGIN_VIEWS  0.85
 
 /* Layers are completed, since others leave holes in views; what is made later goes by the settings again. */
-static CeldStatus
-set_complete (CeldPipeline *p, bool complete)
+CeldStatus
+celd_pipeline_complete_layers (CeldPipeline *p, bool complete)
 {
   CeldSettings settings = p->settings;
 
@@ -95,10 +95,10 @@ celd_pipeline_view (CeldPipeline *p, CeldPipelineProgress progress, gpointer dat
   CeldPipelineReport layers = { progress, data, NULL, BEGIN_LAYERS, BEGIN_SCENE - BEGIN_LAYERS };
   CeldPipelineReport r = { progress, data, "Placing the layers", BEGIN_SCENE, BEGIN_VIEWS - BEGIN_SCENE };
 
-  return celd_pipeline_try (set_complete (p, true), error) &&
+  return celd_pipeline_try (celd_pipeline_complete_layers (p, true), error) &&
          celd_pipeline_make (p, OF (DEPTH), celd_pipeline_report_steps, &before, error) &&
          celd_pipeline_cut (p, 32, celd_pipeline_report_steps, &layers, error) &&
-         celd_pipeline_try (set_complete (p, false), error) &&
+         celd_pipeline_try (celd_pipeline_complete_layers (p, false), error) &&
          celd_pipeline_try (make_views (p, &r), error);
 }
 

@@ -127,18 +127,25 @@ celd_pipeline_write_preview (CeldPipeline *p, CeldPipelineProgress progress, gpo
 #define BEFORE_CUTTING 0.8 /* of the time of cutting with all before it; chosen */
 
 /* Cutting is limited to colours in [0,1]. */
+CeldStatus
+celd_pipeline_cut_colours (CeldPipeline *p, CeldColours *colours, CeldStore store, const CeldHost *host,
+                           CeldLayers **layers)
+{
+  for (gsize i = 0; i < 4 * (gsize) p->width * (gsize) p->height; i++)
+    colours->data[i] = CLAMP (colours->data[i], 0, 1);
+  celd_layers_free (*layers);
+  *layers = NULL;
+  return celd_session_layers (p->session, colours, store, host, layers);
+}
+
 static CeldStatus
 cut (CeldPipeline *p, CeldStore store, const CeldHost *host)
 {
   CeldColours copy = { 0 };
   CeldStatus  status = celd_pipeline_copy_art (p, &copy);
 
-  for (gsize i = 0; status == CELD_OK && i < 4 * (gsize) p->width * (gsize) p->height; i++)
-    copy.data[i] = CLAMP (copy.data[i], 0, 1);
-  celd_layers_free (p->layers);
-  p->layers = NULL;
   if (status == CELD_OK)
-    status = celd_session_layers (p->session, &copy, store, host, &p->layers);
+    status = celd_pipeline_cut_colours (p, &copy, store, host, &p->layers);
   g_free (copy.data);
   return status;
 }

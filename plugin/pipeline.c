@@ -250,6 +250,7 @@ celd_pipeline_free (CeldPipeline *p)
 {
   if (!p)
     return;
+  celd_pipeline_drop_relief (p);
   celd_layers_free (p->layers);
   celd_session_free (p->session);
   g_free (p->art.data);

@@ -87,6 +87,16 @@ gboolean celd_pipeline_view (CeldPipeline *pipeline, CeldPipelineProgress progre
 /* Writes the views in this arrangement into a buffer of the size that celd_stereo_size computes, from 0,0 on. */
 gboolean celd_pipeline_write_views (CeldPipeline *pipeline, CeldStereo arrangement, GeglBuffer *buffer, GError **error);
 
+/* Makes a relief: the lit drawing on rounded parts at their depth, with layers that are completed whatever the settings
+ * say. */
+gboolean celd_pipeline_make_relief (CeldPipeline *pipeline, CeldPipelineProgress progress, gpointer data,
+                                    GError **error);
+/* Writes a view of the relief, as it turns to and fro: from its left side in frame 0, from its right side in the last
+ * of `frames`, which are 2 at least.  The view is scaled to the size of the buffer, which must not be larger than the
+ * image, in pixels from 0,0 on. */
+gboolean celd_pipeline_write_turned (CeldPipeline *pipeline, int frame, int frames, CeldPipelineProgress progress,
+                                     gpointer data, GeglBuffer *buffer, GError **error);
+
 /* Writes CELD_PICTURE_LEVELS or CELD_PICTURE_DEPTH that was made to a file, as celd_io_write_depth does. */
 gboolean celd_pipeline_save (CeldPipeline *pipeline, CeldPicture picture, const char *path, GError **error);
 /* Writes a layer with levels or depth as they are, farthest outside it, as celd_io_write_depth does. */

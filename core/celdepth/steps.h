@@ -327,7 +327,9 @@ CELD_API void       celd_scene_free     (CeldScene *scene);      /* accepts NULL
  * drawing itself.  `squeeze` is the apparent width of the picture, (0,1], below 1 when it is turned. */
 typedef struct { double x, y, squeeze; } CeldCamera;
 CELD_API CeldCamera celd_camera_eye (double eye);
-/* The camera for `frame` of `frames` on a closed path. */
+/* The camera for `frame` of `frames` on a closed path.  On CELD_PATH_TURNTABLE the picture turns by this angle to
+ * either side, where x is 1 or -1. */
+#define CELD_TURNTABLE_ANGLE 20.0 /* degrees; chosen */
 CELD_API CeldCamera celd_camera_on_path (CeldPath path, int frame, int frames);
 
 /* Renders a view: a point moves away from the camera by disparity / 2 of the width, times its depth in front of the

@@ -10,8 +10,7 @@
 
 #include <stdio.h>
 
-#define TURNTABLE_ANGLE 20.0 /* degrees to either side on a turntable; chosen */
-#define CIRCLE_RATIO    0.6  /* height to width of the camera's path, because eyes lie side by side; chosen */
+#define CIRCLE_RATIO 0.6 /* height to width of the camera's path, because eyes lie side by side; chosen */
 
 /* ------------------------------------------------------------------ cameras */
 
@@ -25,7 +24,7 @@ CeldCamera
 celd_camera_on_path (CeldPath path, int frame, int frames)
 {
   double angle = frames > 0 ? 2 * CELD_PI * (frame % frames) / frames : 0;
-  double side = sin (TURNTABLE_ANGLE * CELD_PI / 180), turn = sin (angle) * TURNTABLE_ANGLE * CELD_PI / 180;
+  double side = sin (CELD_TURNTABLE_ANGLE * CELD_PI / 180), turn = sin (angle) * CELD_TURNTABLE_ANGLE * CELD_PI / 180;
 
   switch (path)
     {

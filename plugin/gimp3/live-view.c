@@ -10,16 +10,19 @@
 #define RING       12   /* pixels, the radius of the ring round a place; chosen */
 #define LEAST_SIZE 240  /* pixels of the area; chosen */
 #define TURN       300  /* milliseconds for which each of pictures in turn is seen; chosen */
+#define FRAME      40   /* the same of the relief; chosen */
 
 struct CeldLiveView
 {
   GtkWidget              *area;
   const CeldLivePictures *shown, *chosen;                  /* `chosen` is shown as soon as there is one of it */
   cairo_surface_t        *surface[CELD_LIVE_N_PICTURES];   /* NULL: there is none */
-  int                     scale[CELD_LIVE_N_PICTURES];     /* pixels of the image that one of the surface is wide */
+  double                  scale[CELD_LIVE_N_PICTURES];     /* pixels of the image that one of the surface is wide */
   int                     mark_x, mark_y;                  /* in the image; x < 0: none */
   int                     turn;                            /* the picture that is seen, of those in turn */
-  guint                   timer;                           /* for the next one */
+  CeldLiveTurn           *relief;
+  guint                   timer;                           /* for the next one of what moves; 0: nothing does */
+  gboolean                covered;                         /* is the area, by other windows? */
 };
 
 /* What is shown before there is anything else. */
@@ -30,14 +33,16 @@ static const CeldLivePictures at_first = { NULL, 1, { CELD_PICTURE_REGIONS }, FA
 static cairo_surface_t *
 surface_of (const CeldLiveView *view, int i)
 {
-  return view->surface[view->shown->picture[i]];
+  int picture = view->shown->picture[i];
+
+  return picture == CELD_LIVE_RELIEF ? celd_live_turn_surface (view->relief) : view->surface[picture];
 }
 
 /* The size of a picture in pixels of the image. */
 static void
 get_size (const CeldLiveView *view, int i, double *width, double *height)
 {
-  int              scale = view->scale[view->shown->picture[i]];
+  double           scale = view->scale[view->shown->picture[i]];
   cairo_surface_t *surface = surface_of (view, i);
 
   *width  = scale * cairo_image_surface_get_width (surface);
@@ -80,6 +85,8 @@ draw_picture (const CeldLiveView *view, cairo_t *cr, int i, double zoom)
   double width, height, scale = zoom * view->scale[view->shown->picture[i]];
 
   get_size (view, i, &width, &height);
+  if (fabs (scale - 1) * width < view->scale[view->shown->picture[i]])
+    scale = 1; /* made in this size */
   cairo_rectangle (cr, 0, 0, width * zoom, height * zoom);
   cairo_set_source_rgb (cr, 0.6, 0.6, 0.6);
   cairo_fill (cr);
@@ -148,13 +155,51 @@ has (const CeldLivePictures *pictures, int picture)
 }
 
 static gboolean
+is_relief (const CeldLivePictures *pictures)
+{
+  return has (pictures, CELD_LIVE_RELIEF);
+}
+
+static gboolean
+is_seen (const CeldLiveView *view)
+{
+  GdkWindow *window = gtk_widget_get_window (gtk_widget_get_toplevel (view->area));
+
+  return window && gtk_widget_get_mapped (view->area) && !view->covered &&
+         !(gdk_window_get_state (window) & (GDK_WINDOW_STATE_ICONIFIED | GDK_WINDOW_STATE_WITHDRAWN));
+}
+
+static gboolean
 take_turn (gpointer data)
 {
   CeldLiveView *view = data;
 
   view->turn = (view->turn + 1) % view->shown->n;
+  celd_live_turn_step (view->relief);
   gtk_widget_queue_draw (view->area);
   return G_SOURCE_CONTINUE;
+}
+
+void
+celd_live_view_tick (CeldLiveView *view)
+{
+  gboolean moves = is_relief (view->shown) || view->shown->in_turn;
+
+  if (!moves || !is_seen (view))
+    g_clear_handle_id (&view->timer, g_source_remove);
+  else if (!view->timer)
+    view->timer = g_timeout_add (is_relief (view->shown) ? FRAME : TURN, take_turn, view);
+}
+
+void
+celd_live_view_relief_size (const CeldLiveView *view, int image_width, int image_height, int *width, int *height)
+{
+  double room_x = gtk_widget_get_allocated_width (view->area), room_y = gtk_widget_get_allocated_height (view->area);
+  double zoom = MIN (fit (image_width, image_height, 1, TRUE, room_x, room_y), 1);
+  gboolean wanted = is_relief (view->chosen) && is_seen (view);
+
+  *width  = wanted ? MAX ((int) (image_width * zoom), 1) : 0;
+  *height = wanted ? MAX ((int) (image_height * zoom), 1) : 0;
 }
 
 /* Pictures that are not shown are freed: they would be old when they are shown again. */
@@ -163,9 +208,8 @@ set_shown (CeldLiveView *view, const CeldLivePictures *pictures)
 {
   view->shown = pictures;
   view->turn  = 0;
-  g_clear_handle_id (&view->timer, g_source_remove);
-  if (pictures->in_turn)
-    view->timer = g_timeout_add (TURN, take_turn, view);
+  g_clear_handle_id (&view->timer, g_source_remove); /* the next tick sets the one of these pictures */
+  celd_live_turn_clear (view->relief);
   for (int picture = 0; picture < CELD_LIVE_N_PICTURES; picture++)
     if (!has (pictures, picture))
       g_clear_pointer (&view->surface[picture], cairo_surface_destroy);
@@ -193,8 +237,11 @@ celd_live_view_put (CeldLiveView *view, CeldLiveAnswer *answer)
   cairo_surface_set_user_data (surface, &pixels, answer->pixels, g_free);
   answer->pixels = NULL;
   g_clear_pointer (&view->surface[picture], cairo_surface_destroy);
-  view->surface[picture] = surface;
-  view->scale[picture]   = answer->scale;
+  if (picture == CELD_LIVE_RELIEF)
+    celd_live_turn_put (view->relief, answer->frame, surface);
+  else
+    view->surface[picture] = surface;
+  view->scale[picture] = answer->scale;
   gtk_widget_queue_draw (view->area);
 }
 
@@ -208,6 +255,16 @@ celd_live_view_mark (CeldLiveView *view, int x, int y)
 
 /* ------------------------------------------------------------------ the widget */
 
+static gboolean
+visibility_changed (GtkWidget *area, const GdkEventVisibility *event, gpointer data)
+{
+  CeldLiveView *view = data;
+
+  (void) area;
+  view->covered = event->state == GDK_VISIBILITY_FULLY_OBSCURED;
+  return FALSE;
+}
+
 static void
 destroy (gpointer data)
 {
@@ -216,6 +273,7 @@ destroy (gpointer data)
   g_clear_handle_id (&view->timer, g_source_remove);
   for (int picture = 0; picture < CELD_LIVE_N_PICTURES; picture++)
     g_clear_pointer (&view->surface[picture], cairo_surface_destroy);
+  celd_live_turn_free (view->relief);
   g_free (view);
 }
 
@@ -228,7 +286,10 @@ celd_live_view_new (void)
   view->chosen = &at_first;
   view->mark_x = -1;
   view->area   = gtk_drawing_area_new ();
+  view->relief = celd_live_turn_new (view->area);
   gtk_widget_set_size_request (view->area, LEAST_SIZE, LEAST_SIZE);
+  gtk_widget_add_events (view->area, GDK_VISIBILITY_NOTIFY_MASK);
+  g_signal_connect (view->area, "visibility-notify-event", G_CALLBACK (visibility_changed), view);
   g_signal_connect (view->area, "draw", G_CALLBACK (draw), view);
   g_object_set_data_full (G_OBJECT (view->area), "view", view, destroy);
   return view;

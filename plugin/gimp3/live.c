@@ -26,6 +26,7 @@ typedef struct
   CeldLiveView     *view;
   CeldLiveMessages *messages;
   GtkWidget        *window, *choice, *write, *spinner;
+  int               relief_width, relief_height; /* that the solver was asked for last */
   gboolean          ask;                        /* whether the solver has to be asked, whatever is changed */
   const Babl       *format[CELD_N_PICTURES];    /* of pictures that are written into layers; NULL: not written */
   guint             layers;                     /* pictures that have had a layer since `write` was ticked, as bits */
@@ -43,6 +44,7 @@ static const CeldLivePictures views[] = {
   { N_ ("Drawing with shadows"), 1, { CELD_PICTURE_ENHANCED }, FALSE },
   { N_ ("Stereo"), 1, { CELD_LIVE_STEREO }, FALSE },
   { N_ ("Wiggle"), 2, { CELD_LIVE_LEFT, CELD_LIVE_RIGHT }, TRUE },
+  { N_ ("Turning relief"), 1, { CELD_LIVE_RELIEF }, FALSE },
 };
 
 static const CeldLivePictures *
@@ -151,12 +153,29 @@ ask (Live *live)
   const CeldLivePictures *view = chosen_view (live);
 
   for (int i = 0; i < view->n; i++)
-    request->shown |= 1u << view->picture[i];
+    if (view->picture[i] != CELD_LIVE_RELIEF || live->relief_width)
+      request->shown |= 1u << view->picture[i];
+  request->relief_width  = live->relief_width;
+  request->relief_height = live->relief_height;
   for (int picture = 0; picture < CELD_N_PICTURES; picture++)
     request->format[picture] = live->format[picture];
   celd_live_solver_ask (live->solver, request);
   gtk_spinner_start (GTK_SPINNER (live->spinner));
   live->ask = FALSE;
+}
+
+/* Nothing of the relief is made while nobody sees it, and it is made as large as it is seen. */
+static void
+look_at_view (Live *live)
+{
+  int width, height;
+
+  celd_live_view_tick (live->view);
+  celd_live_view_relief_size (live->view, gimp_image_get_width (live->image), gimp_image_get_height (live->image),
+                              &width, &height);
+  live->ask           = live->ask || width != live->relief_width || height != live->relief_height;
+  live->relief_width  = width;
+  live->relief_height = height;
 }
 
 /* FALSE: the image has been closed. */
@@ -180,6 +199,7 @@ follow (Live *live)
     look_for_layers (live);
   if (news == CELD_LIVE_CHANGED)
     live->changed = g_get_monotonic_time ();
+  look_at_view (live);
   if (news == CELD_LIVE_CHANGED || live->ask)
     ask (live);
   return TRUE;

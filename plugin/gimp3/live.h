@@ -3,6 +3,7 @@
  *   live.c            the procedure: the window, and a tick that ties all of it together
  *   live-follow.c     reads the layers again and again, and notices what has changed
  *   live-view.c       shows pictures, and the place of a message
+ *   live-turn.c       the relief that turns
  *   live-messages.c   the list of messages below it
  *   live-write.c      writes pictures into the group of results, without steps of undo
  *
@@ -56,6 +57,12 @@ typedef struct CeldLiveView CeldLiveView;
 CeldLiveView *celd_live_view_new    (void);  /* freed with its widget */
 GtkWidget    *celd_live_view_widget (CeldLiveView *view);
 
+/* Lets move what moves by itself, or rest while nobody sees it; to be called at each tick. */
+void celd_live_view_tick (CeldLiveView *view);
+
+/* The size in which the relief of an image is seen; 0: it has not been chosen, or nobody sees it. */
+void celd_live_view_relief_size (const CeldLiveView *view, int image_width, int image_height, int *width, int *height);
+
 /* Shows other pictures, as soon as the first of them is there. */
 void celd_live_view_choose (CeldLiveView *view, const CeldLivePictures *pictures);
 
@@ -65,6 +72,23 @@ void celd_live_view_put (CeldLiveView *view, CeldLiveAnswer *answer);
 
 /* Marks a place of the image; x < 0: none. */
 void celd_live_view_mark (CeldLiveView *view, int x, int y);
+
+/* ------------------------------------------------------------------ live-turn.c */
+
+typedef struct CeldLiveTurn CeldLiveTurn;
+
+CeldLiveTurn *celd_live_turn_new  (GtkWidget *area); /* where the mouse turns it */
+void          celd_live_turn_free (CeldLiveTurn *turn);
+
+/* Takes one of its CELD_LIVE_FRAMES pictures; or forgets all of them. */
+void celd_live_turn_put   (CeldLiveTurn *turn, int frame, cairo_surface_t *surface);
+void celd_live_turn_clear (CeldLiveTurn *turn);
+
+/* Turns on by one picture, unless it is being dragged. */
+void celd_live_turn_step (CeldLiveTurn *turn);
+
+/* The picture that is to be seen, or the nearest one that has come; borrowed.  NULL: there is none. */
+cairo_surface_t *celd_live_turn_surface (const CeldLiveTurn *turn);
 
 /* ------------------------------------------------------------------ live-messages.c */
 

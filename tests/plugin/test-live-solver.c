@@ -306,6 +306,75 @@ buffers_have_the_format_that_is_wanted (void)
   end (&seen);
 }
 
+/* ------------------------------------------------------------------ the relief */
+
+/* What has come of the relief. */
+typedef struct { int frame[2 * CELD_LIVE_FRAMES], n; guint8 *last; bool good, done; } Turning;
+
+static void
+turned (CeldLiveAnswer *answer, gpointer data)
+{
+  Turning *t = data;
+
+  if (answer->picture == CELD_LIVE_RELIEF && answer->pixels)
+    {
+      t->good = t->good && t->n < 2 * CELD_LIVE_FRAMES && answer->width == WIDTH / 2 &&
+                answer->height == HEIGHT / 2 && fabs (answer->scale - 2) < 1e-9;
+      if (t->good)
+        t->frame[t->n++] = answer->frame;
+      g_free (t->last);
+      t->last = g_steal_pointer (&answer->pixels);
+    }
+  t->done = t->done || answer->last;
+}
+
+/* Whether these are the pixels of a frame that a new pipeline makes. */
+static bool
+is_frame (const guint8 *pixels, const CeldLiveRequest *request, int frame)
+{
+  CeldPipeline *pipeline = celd_pipeline_new (&request->input, NULL);
+  GeglBuffer   *buffer = gegl_buffer_new (GEGL_RECTANGLE (0, 0, WIDTH / 2, HEIGHT / 2), babl_format ("cairo-ARGB32"));
+  guint8        wanted[PIXELS];
+  bool          good = celd_pipeline_make_relief (pipeline, NULL, NULL, NULL) &&
+                       celd_pipeline_write_turned (pipeline, frame, CELD_LIVE_FRAMES, NULL, NULL, buffer, NULL);
+
+  gegl_buffer_get (buffer, NULL, 1, babl_format ("cairo-ARGB32"), wanted, GEGL_AUTO_ROWSTRIDE, GEGL_ABYSS_NONE);
+  g_object_unref (buffer);
+  celd_pipeline_free (pipeline);
+  return good && !memcmp (wanted, pixels, sizeof wanted);
+}
+
+/* From coarse to fine: whatever has come so far is spread over all of the turn. */
+static void
+the_relief_comes_in_all_positions (void)
+{
+  Turning          t = { .good = true };
+  CeldLiveSolver  *solver = celd_live_solver_new (turned, &t);
+  CeldLiveRequest *request = page_request (1u << CELD_LIVE_RELIEF), *copy;
+  gint64           until = g_get_monotonic_time () + PATIENCE;
+  int              times[CELD_LIVE_FRAMES] = { 0 };
+
+  request->relief_width  = WIDTH / 2;
+  request->relief_height = HEIGHT / 2;
+  copy = celd_live_request_copy (request);
+  celd_live_solver_ask (solver, request);
+  while (!t.done && g_get_monotonic_time () < until)
+    g_main_context_iteration (NULL, TRUE);
+  CHECK (t.good && t.n == CELD_LIVE_FRAMES);
+  for (int i = 0; i < t.n; i++)
+    times[t.frame[i]]++;
+  for (int i = 0; i < CELD_LIVE_FRAMES; i++)
+    CHECK (times[i] == 1);
+  CHECK (t.frame[0] == CELD_LIVE_MIDDLE);
+  CHECK (MIN (t.frame[1], t.frame[2]) == 0 && MAX (t.frame[1], t.frame[2]) == CELD_LIVE_FRAMES - 1);
+  CHECK (t.last && is_frame (t.last, copy, t.frame[t.n - 1]));
+  celd_live_solver_free (solver);
+  celd_live_request_free (copy);
+  g_free (t.last);
+}
+
+/* ------------------------------------------------------------------ the end */
+
 /* In the middle of its work. */
 static void
 it_can_be_stopped_at_any_time (void)
@@ -336,6 +405,7 @@ main (void)
   RUN (input_without_sense_is_told_and_then_forgotten);
   RUN (problems_have_places);
   RUN (buffers_have_the_format_that_is_wanted);
+  RUN (the_relief_comes_in_all_positions);
   RUN (it_can_be_stopped_at_any_time);
   drop_page ();
   gegl_exit ();

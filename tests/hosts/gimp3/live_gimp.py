@@ -45,6 +45,12 @@ def processes():
             pass
 
 
+def seconds_of(name):
+    """The processor time of the processes of this name."""
+    ticks = sum(int(words[13]) + int(words[14]) for words in processes() if words[1] == f'({name})')
+    return ticks / os.sysconf('SC_CLK_TCK')
+
+
 class Gimp:
     """Opens GIMP; `with` closes it."""
 
