@@ -1,7 +1,7 @@
 /* The relief that turns to and fro: the scene of stereo views, with the heights of the relief as its depth.
  *
- * A point at height z is seen at  x cos a - z sin a  when the relief has turned by the angle a, which is what the views of
- * a scene on a turntable are if the disparity for all of its heights is  2 z sin a / width.
+ * A point at height z is seen at  x cos a - z sin a  when the relief has turned by the angle a, which is what the views
+ * of a scene on a turntable are if the disparity for all of its heights is  2 z sin a / width.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */

@@ -66,6 +66,12 @@ celd_live_follower_request (const CeldLiveFollower *f)
   return celd_live_request_copy (f->seen);
 }
 
+GimpImage *
+celd_live_follower_image (const CeldLiveFollower *f)
+{
+  return f->own;
+}
+
 int
 celd_live_follower_left_out (const CeldLiveFollower *f)
 {

@@ -3,6 +3,11 @@
  * Pixels are written straight into a layer, which makes no step of undo, so that Ctrl+Z takes back the artist's own
  * strokes; and only where they differ from what is there, since GIMP has to draw these again.
  *
+ * What is there is read in a copy, for the reason that live-follow.c gives.  Whole tiles are written, since GEGL would
+ * first read a tile that is written in part; a layer that grows meanwhile may get them in a wrong place, until the next
+ * picture comes.  One that shrinks in the fraction of a millisecond that writing takes still ends the plug-in: GIMP has
+ * no other way of writing without a step of undo.
+ *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "live.h"
@@ -98,56 +103,105 @@ read_rectangle (GeglBuffer *buffer, const GeglRectangle *rect, const Babl *forma
   return pixels;
 }
 
-/* `rect` is the part of the layer that lies on the image, which begins at (x,y) of the layer. */
-static void
-write_difference (GimpDrawable *drawable, GeglBuffer *there, GeglBuffer *picture, const GeglRectangle *rect, int x,
-                  int y)
+/* The whole tiles that have a pixel of the rectangle, as far as they lie in the layer. */
+static GeglRectangle
+whole_tiles (GeglBuffer *buffer, const GeglRectangle *rect)
 {
-  GeglRectangle source = { rect->x - x, rect->y - y, rect->width, rect->height }, changed = { 0 };
-  const Babl   *format = gegl_buffer_get_format (there);
-  gsize         pixel = (gsize) babl_format_get_bytes_per_pixel (format);
-  guint8       *old = read_rectangle (there, rect, format), *new = read_rectangle (picture, &source, format);
+  const GeglRectangle *extent = gegl_buffer_get_extent (buffer);
+  GeglRectangle        tiles;
+  int                  width, height;
 
+  g_object_get (buffer, "tile-width", &width, "tile-height", &height, NULL);
+  gegl_rectangle_align (&tiles, rect, GEGL_RECTANGLE (0, 0, width, height), GEGL_RECTANGLE_ALIGNMENT_SUPERSET);
+  gegl_rectangle_intersect (&tiles, &tiles, extent);
+  return tiles;
+}
+
+/* Writes the pixels of a rectangle of the layer, if it still has the size of what they were made from. */
+static void
+send (GimpDrawable *drawable, GeglBuffer *pixels, const GeglRectangle *changed)
+{
+  GeglBuffer   *there = gimp_drawable_get_buffer (drawable);
+  const Babl   *format = gegl_buffer_get_format (pixels);
+  GeglRectangle tiles;
+  guint8       *new;
+
+  if (there && gegl_rectangle_equal (gegl_buffer_get_extent (there), gegl_buffer_get_extent (pixels)))
+    {
+      tiles = whole_tiles (there, changed);
+      new   = read_rectangle (pixels, &tiles, format);
+      if (new)
+        gegl_buffer_set (there, &tiles, 0, format, new, GEGL_AUTO_ROWSTRIDE);
+      gegl_buffer_flush (there); /* which sends them */
+      gimp_drawable_update (drawable, changed->x, changed->y, changed->width, changed->height);
+      g_free (new);
+    }
+  g_clear_object (&there);
+}
+
+/* `pixels` are those of the layer, of which the picture replaces the part that lies on the image, which begins at (x,y)
+ * of the layer. */
+static void
+write_difference (GimpDrawable *drawable, GeglBuffer *pixels, GeglBuffer *picture, int x, int y)
+{
+  const GeglRectangle *image = gegl_buffer_get_extent (picture);
+  const Babl          *format = gegl_buffer_get_format (pixels);
+  GeglRectangle        rect, changed = { 0 };
+  guint8              *old, *new;
+
+  if (!gegl_rectangle_intersect (&rect, gegl_buffer_get_extent (pixels),
+                                 GEGL_RECTANGLE (x, y, image->width, image->height)))
+    return;
+  old = read_rectangle (pixels, &rect, format);
+  new = read_rectangle (picture, GEGL_RECTANGLE (rect.x - x, rect.y - y, rect.width, rect.height), format);
   if (old && new)
-    changed = find_difference (old, new, rect->width, rect->height, pixel);
+    changed = find_difference (old, new, rect.width, rect.height, (gsize) babl_format_get_bytes_per_pixel (format));
   if (changed.width)
     {
-      gsize first = ((gsize) changed.y * (gsize) rect->width + (gsize) changed.x) * pixel;
-
-      changed.x += rect->x;
-      changed.y += rect->y;
-      gegl_buffer_set (there, &changed, 0, format, new + first, rect->width * (int) pixel);
-      gegl_buffer_flush (there); /* which sends the pixels */
-      gimp_drawable_update (drawable, changed.x, changed.y, changed.width, changed.height);
+      gegl_buffer_set (pixels, &rect, 0, format, new, GEGL_AUTO_ROWSTRIDE);
+      changed.x += rect.x;
+      changed.y += rect.y;
+      send (drawable, pixels, &changed);
     }
   g_free (old);
   g_free (new);
 }
 
+/* The pixels of a layer as they are, in memory of their own; NULL: there are none. */
+static GeglBuffer *
+copy_layer (GimpLayer *layer, GimpImage *own)
+{
+  GimpLayer  *copy = own ? gimp_layer_new_from_drawable (GIMP_DRAWABLE (layer), own) : NULL;
+  GeglBuffer *buffer = copy ? gimp_drawable_get_buffer (GIMP_DRAWABLE (copy)) : NULL;
+  GeglBuffer *pixels = buffer ? gegl_buffer_dup (buffer) : NULL;
+
+  g_clear_object (&buffer);
+  if (copy)
+    gimp_item_delete (GIMP_ITEM (copy));
+  return pixels;
+}
+
 /* The layer may have been moved or cropped. */
 static void
-update_layer (GimpLayer *layer, GeglBuffer *picture)
+update_layer (GimpLayer *layer, GimpImage *own, GeglBuffer *picture)
 {
-  GimpDrawable        *drawable = GIMP_DRAWABLE (layer);
-  GeglBuffer          *there = gimp_drawable_get_buffer (drawable);
-  const GeglRectangle *image = gegl_buffer_get_extent (picture);
-  GeglRectangle        rect;
-  int                  x = 0, y = 0;
+  GimpDrawable *drawable = GIMP_DRAWABLE (layer);
+  GeglBuffer   *pixels = copy_layer (layer, own);
+  int           x = 0, y = 0;
 
   gimp_drawable_get_offsets (drawable, &x, &y);
-  if (there && gegl_rectangle_intersect (&rect, gegl_buffer_get_extent (there),
-                                         GEGL_RECTANGLE (-x, -y, image->width, image->height)))
-    write_difference (drawable, there, picture, &rect, -x, -y);
-  g_clear_object (&there);
+  if (pixels)
+    write_difference (drawable, pixels, picture, -x, -y);
+  g_clear_object (&pixels);
 }
 
 void
-celd_live_write (GimpImage *image, CeldPicture picture, GeglBuffer *buffer)
+celd_live_write (GimpImage *image, GimpImage *own, CeldPicture picture, GeglBuffer *buffer)
 {
   GimpLayer *layer = celd_results_find_unlocked (image, celd_pictures[picture].argument);
 
   if (layer)
-    update_layer (layer, buffer);
+    update_layer (layer, own, buffer);
   else if (!celd_results_find (image, celd_pictures[picture].argument))
     add_layer (image, picture, buffer);
 }

@@ -92,7 +92,8 @@ answered (CeldLiveAnswer *answer, gpointer data)
     celd_live_view_put (live->view, answer);
   if (answer->buffer && live->format[answer->picture] && gimp_image_is_valid (live->image))
     {
-      celd_live_write (live->image, (CeldPicture) answer->picture, answer->buffer);
+      celd_live_write (live->image, celd_live_follower_image (live->follower), (CeldPicture) answer->picture,
+                       answer->buffer);
       gimp_displays_flush ();
     }
   if (answer->problems)

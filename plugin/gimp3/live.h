@@ -42,6 +42,9 @@ CeldLiveNews celd_live_follow (CeldLiveFollower *follower, gboolean *looked, GEr
 /* The layers and settings as they were read last, to be freed; nothing is wanted yet. */
 CeldLiveRequest *celd_live_follower_request (const CeldLiveFollower *follower);
 
+/* Where copies of layers belong: an image without a display that nobody else knows.  Borrowed; NULL: none yet. */
+GimpImage *celd_live_follower_image (const CeldLiveFollower *follower);
+
 /* The strokes of paths that are no arrows. */
 int celd_live_follower_left_out (const CeldLiveFollower *follower);
 
@@ -111,7 +114,7 @@ const Babl *celd_live_write_format (GimpImage *image, CeldPicture picture);
 const Babl *celd_live_write_new_format (GimpImage *image, CeldPicture picture);
 
 /* Writes a picture into its layer where that differs, without a step of undo; the group or the layer is made, with one
- * step, if there is none.  A layer whose pixels are locked stays as it is. */
-void celd_live_write (GimpImage *image, CeldPicture picture, GeglBuffer *buffer);
+ * step, if there is none.  A layer whose pixels are locked stays as it is.  `own` is for copies. */
+void celd_live_write (GimpImage *image, GimpImage *own, CeldPicture picture, GeglBuffer *buffer);
 
 #endif
