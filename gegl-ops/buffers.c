@@ -7,6 +7,7 @@
 #include <math.h>
 
 #define LEAST_HUE 0.02f /* difference of the channels of a pixel that is not grey, of 1; chosen */
+#define FAINT_HUE 12    /* of 255: of a picture that is not grey, more than compression makes; chosen */
 
 /* ------------------------------------------------------------------ reading */
 
@@ -95,6 +96,27 @@ celd_buffer_read_drawing (GeglBuffer *buffer, const GeglRectangle *rect, CeldInk
     }
   g_free (rgba);
   return hue || ink == CELD_INK_LINES ? take_coloured_lines (buffer, rect, ink, host, drawing) : CELD_OK;
+}
+
+gboolean
+celd_buffer_has_hue (GeglBuffer *buffer)
+{
+  const GeglRectangle *extent = gegl_buffer_get_extent (buffer);
+  GeglRectangle        row = { extent->x, extent->y, extent->width, 1 };
+  guint8              *rgba;
+  gsize                hued = 0;
+
+  if (babl_format_get_n_components (gegl_buffer_get_format (buffer)) <= 2) /* grey, and alpha */
+    return FALSE;
+  rgba = g_new (guint8, 4 * (gsize) row.width);
+  for (; row.y < extent->y + extent->height; row.y++)
+    {
+      gegl_buffer_get (buffer, &row, 1, babl_format ("R'G'B'A u8"), rgba, GEGL_AUTO_ROWSTRIDE, GEGL_ABYSS_NONE);
+      for (const guint8 *p = rgba; p < rgba + 4 * (gsize) row.width; p += 4)
+        hued += p[3] && MAX (MAX (p[0], p[1]), p[2]) - MIN (MIN (p[0], p[1]), p[2]) > FAINT_HUE;
+    }
+  g_free (rgba);
+  return 100 * hued > (gsize) extent->width * (gsize) extent->height;
 }
 
 /* ------------------------------------------------------------------ normals */

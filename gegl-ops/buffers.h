@@ -24,6 +24,9 @@ void celd_buffer_read_colours (GeglBuffer *buffer, const GeglRectangle *rect, Ce
 CeldStatus celd_buffer_read_drawing (GeglBuffer *buffer, const GeglRectangle *rect, CeldInkMode ink,
                                      const CeldHost *host, CeldDrawing *drawing);
 
+/* Whether more than a hundredth of the buffer is in colour. */
+gboolean celd_buffer_has_hue (GeglBuffer *buffer);
+
 /* Normals as they are stored: 0.5 + 0.5 n, x to the right, y up, or down with `directx`.  `stored` has three numbers a
  * pixel. */
 void celd_normals_store (const CeldVectors *normals, gboolean directx, float *stored);

@@ -4,6 +4,8 @@
  */
 #include "op-parts.h"
 
+#include <string.h>
+
 static void
 create_pad (GeglOperation *operation, const char *name, const char *label, const char *description, GParamFlags access,
             GeglPadType type)
@@ -39,6 +41,15 @@ is_empty_picker (CeldOp *op, const char *pad)
     return TRUE;
   g_object_unref (buffer);
   return FALSE;
+}
+
+const char *
+celd_op_pad_label (CeldOp *op, const char *name)
+{
+  for (const CeldPad *pad = CELD_OPERATION_CLASS_OF (op->operation)->info->pads; pad->name; pad++)
+    if (!strcmp (pad->name, name))
+      return pad->label;
+  return name;
 }
 
 gboolean

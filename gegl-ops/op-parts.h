@@ -5,6 +5,7 @@
  *   op-properties.c  properties and their values
  *   op-specs.c       GParamSpecs of properties, made from rows of the table of settings
  *   op-pads.c        pads, and checks of the pictures on them
+ *   checks.c         checks of what the pictures show
  *   op-messages.c    messages to the artist
  *   op-host.c        progress, threads, and memory for the time of a call
  *
@@ -44,6 +45,23 @@ void celd_operation_attach (GeglOperation *operation);
 /* Whether the input has a finite size up to CELD_MAX_SIDE, and each pad a picture that can be used; if not, with a
  * message. */
 gboolean celd_op_check_pads (CeldOp *op);
+
+/* The label of a pad, as hosts show it. */
+const char *celd_op_pad_label (CeldOp *op, const char *name);
+
+/* ------------------------------------------------------------------ checks.c, for pixels.c and session.c */
+
+/* Refuses a photograph, a painting without lines, and a blank page: the drawing of this pad, which the session has. */
+gboolean celd_op_check_drawing   (CeldOp *op, const char *pad, const CeldDrawing *drawing);
+/* Refuses a photograph, and scribbles that were exchanged with the drawing of that pad. */
+gboolean celd_op_check_scribbles (CeldOp *op, const char *drawing_pad, const CeldPaint *scribbles);
+/* Refuses colours where there has to be depth or levels. */
+gboolean celd_op_check_grey      (CeldOp *op, const char *pad);
+
+/* ------------------------------------------------------------------ pixels.c */
+
+/* What is connected to a pad; borrowed. */
+GeglBuffer *celd_op_buffer (CeldOp *op, const char *pad);
 
 /* ------------------------------------------------------------------ op-messages.c */
 

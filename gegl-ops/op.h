@@ -95,6 +95,7 @@ typedef struct
   char         *last_message;              /* of the last call; NULL if it had none */
   CeldSession  *session;           /* of operations that keep results between calls; made by celd_op_set_session */
   CeldKept      kept;
+  guint64       good_drawing;      /* the fingerprint of the last drawing that was not refused; 0: there is none */
 } CeldOperation;
 
 typedef struct

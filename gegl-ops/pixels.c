@@ -2,7 +2,7 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
-#include "op.h"
+#include "op-parts.h"
 
 #include "buffers.h"
 
@@ -72,8 +72,8 @@ celd_op_new_colours (CeldOp *op, CeldColours *colours)
 
 /* ------------------------------------------------------------------ reading */
 
-static GeglBuffer *
-buffer_of (CeldOp *op, const char *pad)
+GeglBuffer *
+celd_op_buffer (CeldOp *op, const char *pad)
 {
   return GEGL_BUFFER (gegl_operation_context_get_object (op->context, pad));
 }
@@ -81,9 +81,9 @@ buffer_of (CeldOp *op, const char *pad)
 gboolean
 celd_op_read_plane (CeldOp *op, const char *pad, CeldPlane *plane)
 {
-  if (!celd_op_new_plane (op, plane))
+  if (!celd_op_check_grey (op, pad) || !celd_op_new_plane (op, plane))
     return FALSE;
-  celd_buffer_read_plane (buffer_of (op, pad), &op->picture, plane);
+  celd_buffer_read_plane (celd_op_buffer (op, pad), &op->picture, plane);
   return TRUE;
 }
 
@@ -92,7 +92,7 @@ celd_op_read_paint (CeldOp *op, const char *pad, CeldPaint *paint)
 {
   if (!celd_op_new_paint (op, paint))
     return FALSE;
-  celd_buffer_read_paint (buffer_of (op, pad), &op->picture, paint);
+  celd_buffer_read_paint (celd_op_buffer (op, pad), &op->picture, paint);
   return TRUE;
 }
 
@@ -101,14 +101,14 @@ celd_op_read_colours (CeldOp *op, const char *pad, CeldColours *colours)
 {
   if (!celd_op_new_colours (op, colours))
     return FALSE;
-  celd_buffer_read_colours (buffer_of (op, pad), &op->picture, colours);
+  celd_buffer_read_colours (celd_op_buffer (op, pad), &op->picture, colours);
   return TRUE;
 }
 
 gboolean
 celd_op_read_drawing (CeldOp *op, const char *pad, CeldDrawing *drawing)
 {
-  GeglBuffer *buffer = buffer_of (op, pad);
+  GeglBuffer *buffer = celd_op_buffer (op, pad);
 
   *drawing = (CeldDrawing) { 0 };
   return celd_op_new_plane (op, &drawing->luma) &&
@@ -129,12 +129,12 @@ celd_op_read_ink (CeldOp *op, const char *pad, CeldPlane *ink)
 gboolean
 celd_op_read_sample (CeldOp *op, const char *pad, CeldColours *colours)
 {
-  const GeglRectangle *r = gegl_buffer_get_extent (buffer_of (op, pad));
+  const GeglRectangle *r = gegl_buffer_get_extent (celd_op_buffer (op, pad));
 
   *colours = (CeldColours) { r->width, r->height, (size_t) r->width,
                              celd_op_alloc (op, 4 * (gsize) r->width * (gsize) r->height * sizeof (float)) };
   if (colours->data)
-    celd_buffer_read_colours (buffer_of (op, pad), r, colours);
+    celd_buffer_read_colours (celd_op_buffer (op, pad), r, colours);
   return colours->data != NULL;
 }
 

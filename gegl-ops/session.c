@@ -5,7 +5,7 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
-#include "op.h"
+#include "op-parts.h"
 
 static CeldSession *
 get_session (CeldOp *op)
@@ -28,6 +28,17 @@ celd_op_set_layer (CeldOp *op, const char *pad, CeldStatus (*set) (CeldSession *
          celd_op_try (op, set (op->operation->session, &paint));
 }
 
+static gboolean
+set_scribbles (CeldOp *op, const char *drawing_pad, const char *pad)
+{
+  CeldPaint scribbles;
+
+  if (!celd_op_has_input (op, pad))
+    return celd_op_try (op, celd_session_set_scribbles (op->operation->session, NULL));
+  return celd_op_read_paint (op, pad, &scribbles) && celd_op_check_scribbles (op, drawing_pad, &scribbles) &&
+         celd_op_try (op, celd_session_set_scribbles (op->operation->session, &scribbles));
+}
+
 gboolean
 celd_op_set_session (CeldOp *op, const char *drawing_pad, const char *scribbles_pad, const char *arrows_pad)
 {
@@ -41,7 +52,8 @@ celd_op_set_session (CeldOp *op, const char *drawing_pad, const char *scribbles_
          celd_op_try (op, celd_session_set_settings (session, &op->settings)) &&
          celd_op_read_drawing (op, drawing_pad, &drawing) &&
          celd_op_try (op, celd_session_set_drawing (session, &drawing)) &&
-         celd_op_set_layer (op, scribbles_pad, celd_session_set_scribbles) &&
+         celd_op_check_drawing (op, drawing_pad, &drawing) &&
+         set_scribbles (op, drawing_pad, scribbles_pad) &&
          celd_op_set_layer (op, arrows_pad, celd_session_set_arrows) &&
          celd_op_try_text (op, celd_session_set_relations (session, op->own.relations, &error), &error) &&
          celd_op_try_path (op, celd_session_set_arrow_path (session, op->own.arrow_path, &error), &error);

@@ -6,8 +6,6 @@
 
 #include "buffers.h"
 
-#define FAINT_HUE 12 /* of 255: of a picture that is not grey, more than compression makes; chosen */
-
 static GeglRectangle
 image_rectangle (const CeldPipelineInput *input, const CeldPipelineLayer *layer)
 {
@@ -82,28 +80,9 @@ celd_pipeline_check_layers (const CeldPipeline *p, const CeldPipelineInput *inpu
   return (!scribbles || check_scribbles (p, input, error)) && (!drawing || check_drawing (p, input, error));
 }
 
-/* Whether more than a hundredth of the layer is in colour. */
-static gboolean
-has_hue (GeglBuffer *buffer)
-{
-  const GeglRectangle *extent = gegl_buffer_get_extent (buffer);
-  GeglRectangle        row = { extent->x, extent->y, extent->width, 1 };
-  guint8              *rgba = g_new (guint8, 4 * (gsize) row.width);
-  gsize                hued = 0;
-
-  for (; row.y < extent->y + extent->height; row.y++)
-    {
-      gegl_buffer_get (buffer, &row, 1, babl_format ("R'G'B'A u8"), rgba, GEGL_AUTO_ROWSTRIDE, GEGL_ABYSS_NONE);
-      for (const guint8 *p = rgba; p < rgba + 4 * (gsize) row.width; p += 4)
-        hued += p[3] && MAX (MAX (p[0], p[1]), p[2]) - MIN (MIN (p[0], p[1]), p[2]) > FAINT_HUE;
-    }
-  g_free (rgba);
-  return 100 * hued > (gsize) extent->width * (gsize) extent->height;
-}
-
 gboolean
 celd_pipeline_check_grey (const CeldPipelineLayer *layer, GError **error)
 {
-  return !has_hue (layer->buffer) ||
+  return !celd_buffer_has_hue (layer->buffer) ||
          celd_pipeline_fail (error, "The layer is in colour: depth is grey. Choose a layer with depth or levels.");
 }

@@ -47,6 +47,17 @@ page_value (int x, int y)
   return roundf (255 * fmaxf (0, fminf (1, away))) / 255;
 }
 
+/* A surface in all greys, other ones in other channels. */
+static inline float
+surface_at (int i, int channel)
+{
+  double x = i % WIDTH, y = i / WIDTH, sum = 0;
+
+  for (int k = 1; k <= 24; k++)
+    sum += sin (0.2 * k * (x * cos (2.4 * k) + y * sin (2.4 * k)) + (1 + channel) * k * k) / sqrt (k);
+  return (float) (0.5 + 0.12 * sum);
+}
+
 static inline void
 paint_line (uint8_t *paint, int x0, int y0, int x1, int y1, int thickness, uint32_t rgb)
 {

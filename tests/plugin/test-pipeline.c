@@ -288,17 +288,6 @@ input_without_sense_is_refused (void)
   g_object_unref (page);
 }
 
-/* A surface in all greys, other ones in other channels. */
-static float
-surface_at (int i, int channel)
-{
-  double x = i % WIDTH, y = i / WIDTH, sum = 0;
-
-  for (int k = 1; k <= 24; k++)
-    sum += sin (0.2 * k * (x * cos (2.4 * k) + y * sin (2.4 * k)) + (1 + channel) * k * k) / sqrt (k);
-  return (float) (0.5 + 0.12 * sum);
-}
-
 static void
 other_layers_than_meant_are_refused (void)
 {

@@ -1,0 +1,86 @@
+/* Pictures that are something else than they were connected for: they are refused with one sentence, as the plug-ins and
+ * the command do (plugin/pipeline-checks.c), and the input passes through.
+ *
+ * An effect runs at each dab, mostly on the same drawing: one that was good is only compared.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "op-parts.h"
+
+#include "buffers.h"
+
+/* The drawing as it is, not the lines of a coloured one. */
+static gboolean
+check_lines (CeldOp *op, GeglBuffer *buffer)
+{
+  CeldDrawing drawing = { 0 };
+  double      clarity = 1;
+
+  if (!celd_op_new_plane (op, &drawing.luma) ||
+      (celd_buffer_has_alpha (buffer) && !celd_op_new_plane (op, &drawing.alpha)))
+    return FALSE;
+  return celd_op_try (op, celd_buffer_read_drawing (buffer, &op->picture, CELD_INK_DARK, &op->quiet, &drawing)) &&
+         celd_op_try (op, celd_line_clarity (&drawing, &op->quiet, &clarity)) &&
+         (clarity >= CELD_LEAST_CLARITY ||
+          celd_op_fail (op, "The drawing looks like a photograph or a painting without lines. If it is a drawing, say "
+                        "with 'Ink' what its lines are."));
+}
+
+/* A page is blank until the artist has drawn something. */
+static gboolean
+check_ink (CeldOp *op)
+{
+  CeldPlane ink;
+
+  if (!celd_op_try (op, celd_session_ink (op->operation->session, &op->quiet, &ink, NULL)))
+    return FALSE;
+  if (celd_ink_has_lines (&ink))
+    return TRUE;
+  return !op->choosing &&
+         celd_op_fail (op, "The drawing has no lines: it is blank, or its lines are too faint. Choose another layer, or "
+                       "another setting of 'Ink'.");
+}
+
+gboolean
+celd_op_check_drawing (CeldOp *op, const char *pad, const CeldDrawing *drawing)
+{
+  gsize   size = (gsize) op->picture.width * (gsize) op->picture.height * sizeof (float);
+  guint64 input = celd_op_settings_input (op);
+
+  if (op->settings.flats)
+    return TRUE;
+  input = celd_op_add_input (input, drawing->luma.data, size);
+  input = celd_op_add_input (input, drawing->alpha.data, size);
+  if (input == op->operation->good_drawing)
+    return TRUE;
+  if ((op->settings.ink == CELD_INK_AUTO && !check_lines (op, celd_op_buffer (op, pad))) || !check_ink (op))
+    return FALSE;
+  op->operation->good_drawing = input;
+  return TRUE;
+}
+
+gboolean
+celd_op_check_scribbles (CeldOp *op, const char *drawing_pad, const CeldPaint *scribbles)
+{
+  CeldPaint drawing;
+
+  if (op->settings.flats)
+    return TRUE;
+  if (!celd_are_scribbles (scribbles))
+    return celd_op_fail (op, "The scribbles look like a photograph: scribbles are strokes in flat colours on a blank "
+                         "layer. Choose another layer.");
+  if (!celd_is_grey (scribbles))
+    return TRUE;
+  return celd_op_read_paint (op, drawing_pad, &drawing) &&
+         (!celd_is_coloured_strokes (&drawing) ||
+          celd_op_fail (op, "The drawing looks like scribbles, and the scribbles look like a drawing. Exchange them, or "
+                        "scribble in clear colours."));
+}
+
+gboolean
+celd_op_check_grey (CeldOp *op, const char *pad)
+{
+  return !celd_buffer_has_hue (celd_op_buffer (op, pad)) ||
+         celd_op_fail (op, "The picture for '%s' (pad %s) is in colour: depth and levels are grey. Choose another layer.",
+                       celd_op_pad_label (op, pad), pad);
+}

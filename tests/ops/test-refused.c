@@ -1,0 +1,171 @@
+/* Pictures that are something else than they were connected for: one message says so, and the output is the input.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "listen.h"
+#include "page.h"
+
+static float result[4 * PIXELS], wanted[4 * PIXELS];
+
+/* The operations that find regions of a drawing by scribbles. */
+static const char *const finders[] = { "celdepth:popup", "celdepth:lazybrush-segment", "celdepth:depth-exact" };
+
+static GeglBuffer *
+surface (bool coloured)
+{
+  static float pixels[3 * PIXELS];
+
+  for (int i = 0; i < 3 * PIXELS; i++)
+    pixels[i] = surface_at (i / 3, coloured ? i % 3 : 0);
+  return page_buffer ("R'G'B' u8", "R'G'B' float", pixels);
+}
+
+static GeglBuffer *
+blank (void)
+{
+  static float pixels[PIXELS];
+
+  for (int i = 0; i < PIXELS; i++)
+    pixels[i] = 1;
+  return page_buffer ("Y' u8", "Y' float", pixels);
+}
+
+/* Whether the operation has said this in one message, and its output is its input. */
+static bool
+refuses (const char *operation, Pads pads, const char *says)
+{
+  be_quiet ();
+  operate (operation, pads, "RGBA float", result, NULL);
+  gegl_buffer_get (pads.pad[0], NULL, 1, babl_format ("RGBA float"), wanted, GEGL_AUTO_ROWSTRIDE, GEGL_ABYSS_NONE);
+  return times_said == 1 && warnings == 0 && SAYS (says) && difference (result, wanted, 4 * PIXELS) < 1e-6;
+}
+
+static void
+photographs_are_no_drawings (void)
+{
+  GeglBuffer *photograph = surface (false);
+
+  for (size_t i = 0; i < G_N_ELEMENTS (finders); i++)
+    CHECK (refuses (finders[i], (Pads) { { photograph, scribbles } }, "The drawing looks like a photograph"));
+  be_quiet (); /* who says what the lines are is believed */
+  operate ("celdepth:popup", (Pads) { { photograph, scribbles, arrows } }, "RGBA float", result, "ink", CELD_INK_DARK,
+           NULL);
+  CHECK (!SAYS ("photograph"));
+  g_object_unref (photograph);
+}
+
+static void
+photographs_are_no_scribbles (void)
+{
+  GeglBuffer *photograph = surface (true);
+
+  for (size_t i = 0; i < G_N_ELEMENTS (finders); i++)
+    CHECK (refuses (finders[i], (Pads) { { drawing, photograph } }, "The scribbles look like a photograph"));
+  g_object_unref (photograph);
+}
+
+static void
+exchanged_layers_are_noticed (void)
+{
+  for (size_t i = 0; i < G_N_ELEMENTS (finders); i++)
+    CHECK (refuses (finders[i], (Pads) { { scribbles, drawing } }, "Exchange them"));
+}
+
+static void
+blank_pages_have_no_depth (void)
+{
+  GeglBuffer *page = blank ();
+
+  for (size_t i = 0; i < G_N_ELEMENTS (finders); i++)
+    CHECK (refuses (finders[i], (Pads) { { page, scribbles, arrows } }, "The drawing has no lines"));
+  g_object_unref (page);
+}
+
+/* Flats are a colouring without lines, or with them. */
+static void
+flats_need_no_lines (void)
+{
+  GeglBuffer *page = blank ();
+
+  be_quiet ();
+  operate ("celdepth:lazybrush-segment", (Pads) { { page, scribbles } }, "RGBA float", result, "flats", TRUE, NULL);
+  CHECK (times_said == 0 && warnings == 0);
+  g_object_unref (page);
+}
+
+/* Depth and levels are grey; the message names the pad. */
+static void
+colours_are_no_depth (void)
+{
+  CHECK (refuses ("celdepth:stereo", (Pads) { { drawing, scribbles } }, "'Depth' (pad aux) is in colour"));
+  CHECK (refuses ("celdepth:depth-enhance", (Pads) { { drawing, scribbles } }, "'Levels' (pad aux) is in colour"));
+  CHECK (refuses ("celdepth:depth-smooth", (Pads) { { scribbles, drawing } }, "(pad input) is in colour"));
+}
+
+typedef struct { GeglNode *graph, *source[2], *node; } Effect;
+
+static Effect
+new_effect (const char *operation)
+{
+  Effect e = { gegl_node_new (), { NULL, NULL }, NULL };
+
+  e.node = gegl_node_new_child (e.graph, "operation", operation, NULL);
+  for (int i = 0; i < 2; i++)
+    {
+      e.source[i] = gegl_node_new_child (e.graph, "operation", "gegl:buffer-source", NULL);
+      gegl_node_connect_to (e.source[i], "output", e.node, i ? "scribbles" : "input");
+    }
+  return e;
+}
+
+static bool
+says (Effect *e, GeglBuffer *page, GeglBuffer *strokes, const char *text)
+{
+  be_quiet ();
+  gegl_node_set (e->source[0], "buffer", page, NULL);
+  gegl_node_set (e->source[1], "buffer", strokes, NULL);
+  gegl_node_blit (e->node, 1, GEGL_RECTANGLE (0, 0, WIDTH, HEIGHT), babl_format ("RGBA float"), result,
+                  GEGL_AUTO_ROWSTRIDE, GEGL_BLIT_DEFAULT);
+  return text ? times_said == 1 && SAYS (text) : times_said == 0;
+}
+
+/* An effect remembers which drawing was good, but for as long as it stays the same; of a blank page, on which the artist
+ * is about to draw, it says nothing. */
+static void
+effects_look_again_when_the_drawing_changes (void)
+{
+  Effect      e = new_effect ("celdepth:live-popup");
+  GeglBuffer *page = blank (), *photograph = surface (false);
+
+  CHECK (says (&e, page, scribbles, NULL));
+  CHECK (says (&e, drawing, scribbles, NULL));
+  CHECK (says (&e, photograph, scribbles, "photograph"));
+  CHECK (says (&e, photograph, scribbles, NULL)); /* the same again */
+  CHECK (says (&e, drawing, scribbles, NULL));
+  CHECK (says (&e, photograph, scribbles, "photograph"));
+  g_object_unref (e.graph);
+  g_object_unref (page);
+  g_object_unref (photograph);
+}
+
+int
+main (int argc, char **argv)
+{
+  int failed;
+
+  gegl_init (&argc, &argv);
+  make_page ();
+  start_to_listen ();
+  RUN (photographs_are_no_drawings);
+  RUN (photographs_are_no_scribbles);
+  RUN (exchanged_layers_are_noticed);
+  RUN (blank_pages_have_no_depth);
+  RUN (flats_need_no_lines);
+  RUN (colours_are_no_depth);
+  RUN (effects_look_again_when_the_drawing_changes);
+  failed = DONE;
+  stop_to_listen ();
+  drop_page ();
+  gegl_exit ();
+  return failed;
+}
