@@ -48,6 +48,7 @@ const CeldOperationInfo celd_live_popup_operation = {
   .pads        = pads,
   .properties  = celd_popup_properties,
   .unlisted    = TRUE,
+  .size_help   = "In GIMP, choose Cartoon Depth > Live group again, which gives all layers the size of the group.",
   .prepare     = celd_popup_prepare,
   .render      = render,
 };

@@ -58,20 +58,23 @@ celd_op_has_input (CeldOp *op, const char *pad)
   return gegl_operation_context_get_object (op->context, pad) != NULL && !is_empty_picker (op, pad);
 }
 
-/* Tells the artist that a layer does not have the picture's rectangle: GIMP does not pass on the offsets of layers. */
+/* Tells the artist that a layer does not have the picture's rectangle: GIMP does not pass on the offsets of layers, so
+ * that the drawing may be the layer that is smaller than the image. */
 static void
 report_size (CeldOp *op, const CeldPad *pad, const GeglRectangle *r)
 {
+  const char          *help = CELD_OPERATION_CLASS_OF (op->operation)->info->size_help;
   const GeglRectangle *p = &op->picture;
-  char                 text[500];
+  char                 text[600];
 
   if (gegl_rectangle_equal (r, p) || gegl_rectangle_is_infinite_plane (r))
     return;
   g_snprintf (text, sizeof text,
               "'%s' has %d x %d pixels at %d, %d, but the picture has %d x %d at %d, %d. Pixels outside the picture "
-              "are ignored, and missing pixels are empty. If the result is shifted, give the layer the picture's size "
-              "(in GIMP: Layer, Layer to Image Size).",
-              pad->label, r->width, r->height, r->x, r->y, p->width, p->height, p->x, p->y);
+              "are ignored, and missing pixels are empty. %s",
+              pad->label, r->width, r->height, r->x, r->y, p->width, p->height, p->x, p->y,
+              help ? help : "If the result is shifted, give the layer the picture's size (in GIMP: Layer, Layer to Image "
+                            "Size, for this layer and for the one that the filter is applied to).");
   celd_op_add_line (op, text);
 }
 

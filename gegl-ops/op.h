@@ -73,6 +73,7 @@ typedef struct
   const CeldPad      *pads;        /* "input" first, ended by a NULL name */
   const CeldProperty *properties;  /* in the order of dialogs; the last one has neither name nor row */
   gboolean            unlisted;    /* not in GIMP's menu of filters */
+  const char         *size_help;   /* what to do when a layer has another size than the picture; NULL: as in a dialog */
   const char         *format;      /* of the output; NULL: `prepare` sets it */
   void              (*prepare) (GeglOperation *operation);
   void              (*adjust) (GeglOperationClass *klass); /* changes functions of the base class; may be NULL */

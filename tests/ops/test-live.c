@@ -169,7 +169,7 @@ layers_of_other_sizes_are_named (void)
   render ((Layers) { .input = group, .drawing = drawing, .scribbles = small, .arrows = arrows }, 3, result);
   operate ("celdepth:popup", (Pads) { { drawing, scribbles, arrows } }, "RGBA float", wanted, NULL);
   SAME (0);
-  CHECK (SAYS ("112 x 60"));
+  CHECK (SAYS ("112 x 60") && SAYS ("Live group again") && !SAYS ("Image Size"));
   g_object_unref (away);
   g_object_unref (small);
 }

@@ -242,7 +242,7 @@ layers_of_another_size_are_reported (void)
   be_quiet ();
   operate ("celdepth:popup", (Pads) { { drawing, narrow } }, "RGBA float", result, NULL);
   CHECK (difference (result, input_light, 4 * PIXELS) > 0.1);
-  CHECK (times_said == 1 && SAYS ("Scribbles") && SAYS ("the picture's size"));
+  CHECK (times_said == 1 && SAYS ("Scribbles") && SAYS ("the picture's size") && SAYS ("for this layer and for the one"));
   g_object_unref (narrow);
 }
 
