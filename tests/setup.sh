@@ -81,6 +81,14 @@ build_with_clang ()
   build_tree "$@"
 )
 
+# install_for_user FOLDER HOME: builds in the folder without tests, and installs into a home.  Compiling keeps the caller's
+# home, and with it the compiler's cache.
+install_for_user ()
+{
+  [ -e "$1/build.ninja" ] || HOME=$2 meson setup "$1" --prefix "$2/.local" -Dtests=false || return 1
+  ninja -C "$1" && HOME=$2 meson install -C "$1" --no-rebuild
+}
+
 # use_build FOLDER: `gegl` and `celdepth` of this build come first
 use_build ()
 {

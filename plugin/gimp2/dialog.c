@@ -76,15 +76,15 @@ relations_changed (GtkEntry *entry, gpointer data)
 static GtkWidget *
 pictures_frame (CeldChoices *choices)
 {
-  GtkWidget *frame = gimp_frame_new ("Make"), *table = gtk_table_new ((CELD_POPUP_PICTURES + 1) / 2, 2, TRUE);
+  GtkWidget *frame = gimp_frame_new (_ ("Make")), *table = gtk_table_new ((CELD_POPUP_PICTURES + 1) / 2, 2, TRUE);
 
   for (guint i = 0; i < CELD_POPUP_PICTURES; i++)
     {
       CeldPicture            picture = celd_pictures_stacked[i];
       const CeldPictureInfo *info = &celd_pictures[picture];
-      GtkWidget             *button = gtk_check_button_new_with_mnemonic (info->label);
+      GtkWidget             *button = gtk_check_button_new_with_mnemonic (_ (info->label));
 
-      gimp_help_set_help_data (button, info->help, NULL);
+      gimp_help_set_help_data (button, _ (info->help), NULL);
       gtk_toggle_button_set_active (GTK_TOGGLE_BUTTON (button), (choices->wanted & 1u << picture) != 0);
       g_object_set_data (G_OBJECT (button), "bit", GUINT_TO_POINTER (1u << picture));
       g_signal_connect (button, "toggled", G_CALLBACK (picture_toggled), choices);
@@ -97,10 +97,10 @@ pictures_frame (CeldChoices *choices)
 static void
 add_number (GtkTable *table, int line, const CeldSettingInfo *row, CeldChoices *choices)
 {
-  GtkObject *adjustment = gimp_scale_entry_new (table, 0, line, row->label, SCALE, 6,
+  GtkObject *adjustment = gimp_scale_entry_new (table, 0, line, _ (row->label), SCALE, 6,
                                                 celd_setting_get (row, &choices->settings), row->shown.least,
                                                 row->shown.most, row->shown.step, row->shown.page,
-                                                (guint) row->shown.digits, TRUE, 0, 0, row->help, NULL);
+                                                (guint) row->shown.digits, TRUE, 0, 0, _ (row->help), NULL);
 
   g_object_set_data (G_OBJECT (adjustment), "row", (gpointer) row);
   g_signal_connect (adjustment, "value-changed", G_CALLBACK (number_changed), choices);
@@ -113,23 +113,23 @@ add_choice (GtkTable *table, int line, const CeldSettingInfo *row, int n, CeldCh
 
   for (int i = 0; i < n; i++)
     gimp_int_combo_box_append (GIMP_INT_COMBO_BOX (combo), GIMP_INT_STORE_VALUE, i, GIMP_INT_STORE_LABEL,
-                               row->choice[i].label, -1);
+                               _ (row->choice[i].label), -1);
   g_object_set_data (G_OBJECT (combo), "row", (gpointer) row);
   gimp_int_combo_box_connect (GIMP_INT_COMBO_BOX (combo), (int) celd_setting_get (row, &choices->settings),
                               G_CALLBACK (choice_changed), choices);
-  gimp_help_set_help_data (combo, row->help, NULL);
-  gimp_table_attach_aligned (table, 0, line, row->label, 0, 0.5, combo, 2, FALSE);
+  gimp_help_set_help_data (combo, _ (row->help), NULL);
+  gimp_table_attach_aligned (table, 0, line, _ (row->label), 0, 0.5, combo, 2, FALSE);
 }
 
 static void
 add_switch (GtkTable *table, int line, const CeldSettingInfo *row, CeldChoices *choices)
 {
-  GtkWidget *button = gtk_check_button_new_with_label (row->label);
+  GtkWidget *button = gtk_check_button_new_with_label (_ (row->label));
 
   g_object_set_data (G_OBJECT (button), "row", (gpointer) row);
   gtk_toggle_button_set_active (GTK_TOGGLE_BUTTON (button), celd_setting_get (row, &choices->settings) != 0);
   g_signal_connect (button, "toggled", G_CALLBACK (switch_toggled), choices);
-  gimp_help_set_help_data (button, row->help, NULL);
+  gimp_help_set_help_data (button, _ (row->help), NULL);
   gtk_table_attach_defaults (table, button, 0, 3, (guint) line, (guint) line + 1);
 }
 
@@ -138,7 +138,7 @@ static GtkWidget *
 settings_frame (int *i, CeldChoices *choices)
 {
   const char *heading = celd_main_settings[*i].heading;
-  GtkWidget  *frame = gimp_frame_new (heading), *table = gtk_table_new (1, 3, FALSE);
+  GtkWidget  *frame = gimp_frame_new (_ (heading)), *table = gtk_table_new (1, 3, FALSE);
 
   gtk_table_set_col_spacings (GTK_TABLE (table), SPACE);
   gtk_table_set_row_spacings (GTK_TABLE (table), SPACE / 2);
@@ -161,10 +161,11 @@ settings_frame (int *i, CeldChoices *choices)
 static GtkWidget *
 relations_frame (CeldChoices *choices)
 {
-  GtkWidget *frame = gimp_frame_new ("Relations"), *entry = gtk_entry_new ();
+  GtkWidget *frame = gimp_frame_new (_ ("Relations")), *entry = gtk_entry_new ();
 
   gtk_entry_set_text (GTK_ENTRY (entry), choices->relations);
-  gimp_help_set_help_data (entry, "Relations as text, beside arrows: 120,80 > 300,95 or #ff0000 > #0000ff", NULL);
+  gimp_help_set_help_data (entry, _ ("Relations as text, beside arrows: 120,80 > 300,95 or #ff0000 > #0000ff"),
+                           NULL);
   g_signal_connect (entry, "changed", G_CALLBACK (relations_changed), choices);
   gtk_container_add (GTK_CONTAINER (frame), entry);
   return frame;
@@ -174,19 +175,20 @@ relations_frame (CeldChoices *choices)
 static GtkWidget *
 layer_combo (const GArray *listed, int role, CeldChoices *choices)
 {
-  GtkWidget *combo = gimp_int_combo_box_new ("None", NO_LAYER, NULL);
+  GtkWidget *combo = gimp_int_combo_box_new (_ ("(none)"), NO_LAYER, NULL);
 
   for (guint i = 0; i < listed->len; i++)
     {
       gint32 layer = g_array_index (listed, gint32, i);
       char  *name = gimp_item_get_name (layer);
 
-      gimp_int_combo_box_append (GIMP_INT_COMBO_BOX (combo), GIMP_INT_STORE_VALUE, layer, GIMP_INT_STORE_LABEL, name, -1);
+      gimp_int_combo_box_append (GIMP_INT_COMBO_BOX (combo), GIMP_INT_STORE_VALUE, layer, GIMP_INT_STORE_LABEL, name,
+                                 -1);
       g_free (name);
     }
   gimp_int_combo_box_connect (GIMP_INT_COMBO_BOX (combo), choices->layer[role], G_CALLBACK (layer_chosen),
                               &choices->layer[role]);
-  gimp_help_set_help_data (combo, celd_layer_help[role], NULL);
+  gimp_help_set_help_data (combo, _ (celd_layer_help[role]), NULL);
   return combo;
 }
 
@@ -195,13 +197,13 @@ static GtkWidget *
 layers_frame (gint32 image, CeldChoices *choices)
 {
   GArray    *listed = celd_layers_list (image);
-  GtkWidget *frame = gimp_frame_new ("Layers"), *table = gtk_table_new ((CELD_N_LAYERS + 1) / 2, 4, FALSE);
+  GtkWidget *frame = gimp_frame_new (_ ("Layers")), *table = gtk_table_new ((CELD_N_LAYERS + 1) / 2, 4, FALSE);
 
   gtk_table_set_col_spacings (GTK_TABLE (table), SPACE);
   gtk_table_set_row_spacings (GTK_TABLE (table), SPACE / 2);
   for (int role = 0; role < CELD_N_LAYERS; role++)
-    gimp_table_attach_aligned (GTK_TABLE (table), role % 2 * 2, role / 2, celd_layer_role_name ((CeldLayerRole) role), 0,
-                               0.5, layer_combo (listed, role, choices), 1, FALSE);
+    gimp_table_attach_aligned (GTK_TABLE (table), role % 2 * 2, role / 2, _ (celd_layer_role_name ((CeldLayerRole) role)),
+                               0, 0.5, layer_combo (listed, role, choices), 1, FALSE);
   gtk_container_add (GTK_CONTAINER (frame), table);
   g_array_unref (listed);
   return frame;
@@ -214,8 +216,8 @@ celd_dialog_run (gint32 image, CeldChoices *choices)
   gboolean   go;
 
   gimp_ui_init ("celdepth", FALSE);
-  dialog = gimp_dialog_new ("Pop-up", "celdepth", NULL, 0, gimp_standard_help_func, "plug-in-celdepth-popup",
-                            "_Cancel", GTK_RESPONSE_CANCEL, "_Make", GTK_RESPONSE_OK, NULL);
+  dialog = gimp_dialog_new (_ ("Pop-up"), "celdepth", NULL, 0, gimp_standard_help_func, "plug-in-celdepth-popup",
+                            _ ("_Cancel"), GTK_RESPONSE_CANCEL, _ ("_Make"), GTK_RESPONSE_OK, NULL);
   gtk_dialog_set_default_response (GTK_DIALOG (dialog), GTK_RESPONSE_OK);
   gtk_container_set_border_width (GTK_CONTAINER (box), 2 * SPACE);
   gtk_box_pack_start (GTK_BOX (box), layers_frame (image, choices), FALSE, FALSE, 0);

@@ -13,6 +13,7 @@
 #ifndef CELD_GIMP2_H
 #define CELD_GIMP2_H
 
+#include <glib/gi18n.h>
 #include <libgimp/gimp.h>
 
 #include "front-end.h"

@@ -7,6 +7,7 @@
 #include "gimp2.h"
 
 #define PROCEDURE  "plug-in-celdepth-popup"
+#define DOMAIN     "celdepth"               /* of translations */
 #define LEAST_STEP 0.01 /* of the progress, each of which is a message to GIMP; chosen */
 
 /* ------------------------------------------------------------------ progress */
@@ -40,18 +41,18 @@ static gboolean
 check (gint32 image, const CeldChoices *choices, GError **error)
 {
   if (gimp_image_base_type (image) != GIMP_RGB)
-    return fail (error, "This image has no colours, which scribbles and regions need. Turn it into an RGB image: "
-                 "Image > Mode > RGB.");
+    return fail (error, _ ("This image has no colours, which scribbles and regions need. Turn it into an RGB image: "
+                           "Image > Mode > RGB."));
   if (gimp_image_get_floating_sel (image) >= 0)
-    return fail (error, "There is a floating selection. Anchor it first: Layer > Anchor Layer.");
+    return fail (error, _ ("There is a floating selection. Anchor it first: Layer > Anchor Layer."));
   if (!choices->wanted)
-    return fail (error, "Nothing is chosen that could be made. Tick at least one picture.");
+    return fail (error, _ ("Nothing is chosen that could be made. Tick at least one picture."));
   if (choices->layer[CELD_LAYER_DRAWING] < 0)
-    return fail (error, "There is no layer named \"Drawing\", and there are several that could be it. Name it, or choose it in "
-                 "the dialog.");
+    return fail (error, _ ("There is no layer named \"Drawing\", and there are several that could be it. Name it, or "
+                           "choose it in the dialog."));
   if (choices->layer[CELD_LAYER_SCRIBBLES] < 0 && choices->layer[CELD_LAYER_ARROWS] < 0)
-    return fail (error, "There is no layer with scribbles or arrows. Choose one in the dialog, or make a layer named "
-                 "\"Scribbles\", and scribble over each part in a colour of its own.");
+    return fail (error, _ ("There is no layer with scribbles or arrows. Choose one in the dialog, or make a layer "
+                           "named \"Scribbles\", and scribble over each part in a colour of its own."));
   return TRUE;
 }
 
@@ -78,7 +79,7 @@ make (gint32 image, const CeldChoices *choices, GError **error)
 
   if (!check (image, choices, error))
     return -1;
-  gimp_progress_init ("Reading the layers");
+  gimp_progress_init (_ ("Reading the layers"));
   pipeline = open_pipeline (image, choices, error);
   if (pipeline && celd_pipeline_make (pipeline, choices->wanted, show_progress, &progress, error))
     {
@@ -127,6 +128,9 @@ run (const gchar *name, gint n, const GimpParam *param, gint *n_values, GimpPara
   gint32           group = -1;
 
   (void) name;
+  bindtextdomain (DOMAIN, CELD_LOCALE_FOLDER);
+  bind_textdomain_codeset (DOMAIN, "UTF-8");
+  textdomain (DOMAIN);
   gegl_init (NULL, NULL);
   value[0].type          = GIMP_PDB_STATUS;
   value[0].data.d_status = run_popup (param, n, &group, &error);
@@ -154,12 +158,13 @@ query (void)
   };
   static const GimpParamDef results[] = { { GIMP_PDB_LAYER, "group", "The group with the results" } };
 
+  gimp_plugin_domain_register (DOMAIN, CELD_LOCALE_FOLDER); /* in which GIMP finds the texts below */
   gimp_install_procedure (PROCEDURE,
-                          "Finds depth for a drawing, from scribbles over its parts and arrows from nearer to farther "
-                          "parts",
-                          "Reads the layers Drawing, Scribbles, Arrows, Contours, Corrections and Hidden, and puts the "
-                          "results into a layer group, which is updated when it is there already.",
-                          "The authors of celdepth", "LGPL-3.0-or-later", "2026", "_Pop-up...", "*", GIMP_PLUGIN,
+                          N_ ("Finds depth for a drawing, from scribbles over its parts and arrows from nearer to "
+                              "farther parts"),
+                          N_ ("Reads the layers Drawing, Scribbles, Arrows, Contours, Corrections and Hidden, and puts "
+                              "the results into a layer group, which is updated when it is there already."),
+                          "The authors of celdepth", "LGPL-3.0-or-later", "2026", N_ ("_Pop-up..."), "*", GIMP_PLUGIN,
                           G_N_ELEMENTS (arguments), G_N_ELEMENTS (results), arguments, results);
   gimp_plugin_menu_register (PROCEDURE, "<Image>/Cartoon Depth");
 }

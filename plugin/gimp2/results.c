@@ -100,7 +100,7 @@ add_layer (gint32 image, CeldPipeline *pipeline, gint32 group, CeldPicture pictu
            GError **error)
 {
   const CeldPictureInfo *info = &celd_pictures[picture];
-  gint32                 layer = gimp_layer_new (image, info->layer, gimp_image_width (image),
+  gint32                 layer = gimp_layer_new (image, _ (info->layer), gimp_image_width (image),
                                                  gimp_image_height (image),
                                                  info->alpha ? GIMP_RGBA_IMAGE : GIMP_RGB_IMAGE, 100,
                                                  GIMP_LAYER_MODE_NORMAL);

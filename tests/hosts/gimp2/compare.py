@@ -67,7 +67,7 @@ def main():
     out = sys.argv[1]
     results = [compare(out, bits, layer, name) for bits in ('8', '16', '32') for layer, name in LAYERS.items()]
     results.append(compare(out, 'again', 'Lit drawing', 'lit'))
-    results += checks_of_plugin(out)
+    results += checks_of_plugin(out, 'plugin-german.txt')
     print(f'{sum(results)} passed, {len(results) - sum(results)} failed')
     return 0 if all(results) else 1
 

@@ -118,6 +118,21 @@
     (check (fails? image "depth" "" "") "an image without colours is refused")
     (gimp-image-delete image)))
 
+;; In German, for a GIMP that speaks it: names of results, and a refusal.
+(define (celdepth-german-checks examples out)
+  (set! log (open-output-file (string-append out "/plugin-german.txt")))
+  (let* ((image (make-image examples PRECISION-U8-GAMMA '("Zeichnung" "Kritzeleien" "Pfeile")))
+         (names (layer-names (children (popup image "lit,depth" "" ""))))
+         (refusal "Es gibt keine Ebene mit Kritzeleien oder Pfeilen. Eine im Dialog wählen, ")
+         (message ""))
+    (check (equal? names '("Beleuchtete Zeichnung" "Tiefe")) (apply string-append "in German the results are " names))
+    (for-each (lambda (name) (gimp-item-set-name (find name (top-layers image)) "-")) '("Kritzeleien" "Pfeile"))
+    (set! *error-hook* (lambda parts (set! message (car parts)) (apply throw parts)))
+    (check (fails? image "depth" "" "") "in German, without scribbles and arrows, it is refused")
+    (check (not (null? (cdr (strbreakup message refusal)))) (string-append "with these words: " message)))
+  (check #t "all checks were run")
+  (close-output-port log))
+
 ;; Layers that were chosen, here as GIMP 3 keeps it with an image, count whatever they are called.
 (define (check-chosen-layers examples)
   (let* ((image (make-image examples PRECISION-U8-GAMMA '("art" "strokes of mine" "notes")))
