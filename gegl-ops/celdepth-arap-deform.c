@@ -105,8 +105,8 @@ static gboolean
 try_parts (CeldOp *op, CeldStatus status)
 {
   return status == CELD_NOTHING_TO_GO_BY && !op->choosing
-           ? celd_op_fail (op, "The parts of the drawing are not known. Choose a layer for 'Levels' (pad aux), or for "
-                               "'Scribbles' (aux4) or 'Arrows' (aux5).")
+           ? celd_op_fail (op, _ ("The parts of the drawing are not known. Choose a layer for 'Levels' (pad aux), "
+                                  "or for 'Scribbles' (aux4) or 'Arrows' (aux5)."))
            : celd_op_try (op, status);
 }
 
@@ -167,7 +167,7 @@ static gboolean
 try_handles (CeldOp *op, CeldStatus status)
 {
   return status == CELD_BAD_VALUE
-           ? celd_op_fail (op, "A handle is too far away: its numbers must lie between -1000000 and 1000000.")
+           ? celd_op_fail (op, _ ("A handle is too far away: its numbers must lie between -1000000 and 1000000."))
            : celd_op_try (op, status);
 }
 

@@ -45,7 +45,7 @@ static gboolean
 try_drawings (CeldOp *op, CeldStatus status)
 {
   return status == CELD_NOTHING_TO_GO_BY
-           ? celd_op_fail (op, "There is nothing to register: 'Drawing' or 'Target' (pad aux) is blank.")
+           ? celd_op_fail (op, _ ("There is nothing to register: 'Drawing' or 'Target' (pad aux) is blank."))
            : celd_op_try (op, status);
 }
 

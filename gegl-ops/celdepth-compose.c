@@ -98,9 +98,9 @@ check_levels (CeldOp *op, const GeglRectangle *art)
   const GeglRectangle *r = gegl_operation_source_get_bounding_box (GEGL_OPERATION (op->operation), "aux3");
 
   return !celd_op_has_input (op, "aux3") || !r || gegl_rectangle_equal (r, art) ||
-         celd_op_fail (op, "'Second levels' (pad aux3, %d x %d pixels at %d, %d) must have the size and place of "
-                       "'Second art' (%d x %d at %d, %d).", r->width, r->height, r->x, r->y, art->width, art->height,
-                       art->x, art->y);
+         celd_op_fail (op, _ ("'Second levels' (pad aux3, %d x %d pixels at %d, %d) must have the size and place of "
+                              "'Second art' (%d x %d at %d, %d)."),
+                       r->width, r->height, r->x, r->y, art->width, art->height, art->x, art->y);
 }
 
 /* The second picture has a rectangle of its own. */
@@ -112,7 +112,8 @@ read_second (CeldOp *op, Piece *piece)
   gboolean             good;
 
   if (!celd_op_has_input (op, "aux2") || !r)
-    return op->choosing ? FALSE : celd_op_fail (op, "There is no picture for 'Second art' (pad aux2). Choose a layer.");
+    return op->choosing ? FALSE : celd_op_fail (op, _ ("There is no picture for 'Second art' (pad aux2). Choose a "
+                                                       "layer."));
   if (!check_levels (op, r))
     return FALSE;
   op->picture = *r;

@@ -99,13 +99,13 @@ read_corrections (CeldOp *op, const CeldLabels *regions, CeldLabels *corrections
   if (!celd_op_has_input (op, "aux3"))
     return TRUE;
   if (!regions->data)
-    return celd_op_fail (op, "Corrections have the colours of regions. Choose a layer for 'Regions' (pad aux2).");
+    return celd_op_fail (op, _ ("Corrections have the colours of regions. Choose a layer for 'Regions' (pad aux2)."));
   if (!celd_op_read_paint (op, "aux3", &paint) || !celd_op_new_labels (op, corrections) ||
       !celd_op_try (op, celd_corrections_read (&paint, &op->palette, corrections)))
     return FALSE;
   return !has_only_unknown_colours (&paint, corrections) ||
-         celd_op_fail (op, "No stroke of 'Corrections' (pad aux3) has the colour of a region. Pick the colours from "
-                           "'Regions'.");
+         celd_op_fail (op, _ ("No stroke of 'Corrections' (pad aux3) has the colour of a region. Pick the colours "
+                              "from 'Regions'."));
 }
 
 /* ------------------------------------------------------------------ a layer */

@@ -30,8 +30,8 @@ render (CeldOp *op)
   /* While GIMP's dialog of the effect is open, it has no layers. */
   if (!celd_op_has_input (op, "scribbles"))
     return !op->choosing &&
-           celd_op_fail (op, "No layer with scribbles is connected. In GIMP, Cartoon Depth > Live group connects the "
-                         "layers of the group, also after its file was opened again.");
+           celd_op_fail (op, _ ("No layer with scribbles is connected. In GIMP, Cartoon Depth > Live group connects "
+                                "the layers of the group, also after its file was opened again."));
   if (!celd_op_has_input (op, "drawing"))
     by_role.drawing = "input";
   op->choosing = TRUE;
@@ -48,7 +48,7 @@ const CeldOperationInfo celd_live_popup_operation = {
   .pads        = pads,
   .properties  = celd_popup_properties,
   .unlisted    = TRUE,
-  .size_help   = "In GIMP, choose Cartoon Depth > Live group again, which gives all layers the size of the group.",
+  .size_help   = N_ ("In GIMP, choose Cartoon Depth > Live group again, which gives all layers the size of the group."),
   .prepare     = celd_popup_prepare,
   .render      = render,
 };

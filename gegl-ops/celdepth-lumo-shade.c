@@ -92,8 +92,8 @@ write_light (CeldOp *op, const CeldPlane *ink, const CeldPlane *levels, const Ce
   CeldPlane           gloss;
 
   if (by_matcap && !celd_op_has_input (op, "aux5"))
-    return celd_op_fail (op, "There is no picture for 'Matcap' (pad aux5). Choose the picture of a lit ball, or "
-                             "another light model.");
+    return celd_op_fail (op, _ ("There is no picture for 'Matcap' (pad aux5). Choose the picture of a lit ball, or "
+                                "another light model."));
   if ((by_matcap && !celd_op_read_sample (op, "aux5", &matcap)) || !celd_op_new_colours (op, &tone) ||
       !celd_op_new_plane (op, &gloss) ||
       !celd_op_try (op, celd_light (normals, ink, levels, by_matcap ? &matcap : NULL, s, &op->quiet, &tone, &gloss)))

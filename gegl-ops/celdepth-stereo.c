@@ -2,6 +2,7 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
+#include "problems.h"
 #include "properties.h"
 
 static const CeldProperty properties[] = {
@@ -114,7 +115,7 @@ report_comfort (CeldOp *op, const CeldPlane *depth)
 
   if (!celd_op_try (op, celd_stereo_comfort (depth, s, &comfort)))
     return FALSE;
-  celd_comfort_text (&comfort, s, text, sizeof text);
+  celd_comfort_text (&comfort, s, celd_in_language, text, sizeof text);
   return !text[0] || celd_op_report_text (op, text);
 }
 

@@ -8,6 +8,7 @@
 #include "op-parts.h"
 
 #include "buffers.h"
+#include "translate.h"
 
 /* The drawing as it is, not the lines of a coloured one. */
 static gboolean
@@ -22,8 +23,8 @@ check_lines (CeldOp *op, GeglBuffer *buffer)
   return celd_op_try (op, celd_buffer_read_drawing (buffer, &op->picture, CELD_INK_DARK, &op->quiet, &drawing)) &&
          celd_op_try (op, celd_line_clarity (&drawing, &op->quiet, &clarity)) &&
          (clarity >= CELD_LEAST_CLARITY ||
-          celd_op_fail (op, "The drawing looks like a photograph or a painting without lines. If it is a drawing, say "
-                        "with 'Ink' what its lines are."));
+          celd_op_fail (op, _ ("The drawing looks like a photograph or a painting without lines. If it is a drawing, say "
+                               "with 'Ink' what its lines are.")));
 }
 
 /* A page is blank until the artist has drawn something. */
@@ -37,8 +38,8 @@ check_ink (CeldOp *op)
   if (celd_ink_has_lines (&ink))
     return TRUE;
   return !op->choosing &&
-         celd_op_fail (op, "The drawing has no lines: it is blank, or its lines are too faint. Choose another layer, or "
-                       "another setting of 'Ink'.");
+         celd_op_fail (op, _ ("The drawing has no lines: it is blank, or its lines are too faint. Choose another layer, "
+                              "or another setting of 'Ink'."));
 }
 
 gboolean
@@ -67,20 +68,20 @@ celd_op_check_scribbles (CeldOp *op, const char *drawing_pad, const CeldPaint *s
   if (op->settings.flats)
     return TRUE;
   if (!celd_are_scribbles (scribbles))
-    return celd_op_fail (op, "The scribbles look like a photograph: scribbles are strokes in flat colours on a blank "
-                         "layer. Choose another layer.");
+    return celd_op_fail (op, _ ("The scribbles look like a photograph: scribbles are strokes in flat colours on a "
+                                "blank layer. Choose another layer."));
   if (!celd_is_grey (scribbles))
     return TRUE;
   return celd_op_read_paint (op, drawing_pad, &drawing) &&
          (!celd_is_coloured_strokes (&drawing) ||
-          celd_op_fail (op, "The drawing looks like scribbles, and the scribbles look like a drawing. Exchange them, or "
-                        "scribble in clear colours."));
+          celd_op_fail (op, _ ("The drawing looks like scribbles, and the scribbles look like a drawing. Exchange them, "
+                               "or scribble in clear colours.")));
 }
 
 gboolean
 celd_op_check_grey (CeldOp *op, const char *pad)
 {
   return !celd_buffer_has_hue (celd_op_buffer (op, pad)) ||
-         celd_op_fail (op, "The picture for '%s' (pad %s) is in colour: depth and levels are grey. Choose another layer.",
-                       celd_op_pad_label (op, pad), pad);
+         celd_op_fail (op, _ ("The picture for '%s' (pad %s) is in colour: depth and levels are grey. Choose another "
+                              "layer."), _ (celd_op_pad_label (op, pad)), pad);
 }

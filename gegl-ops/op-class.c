@@ -123,7 +123,7 @@ celd_operation_class_finalize (CeldOperationClass *klass)
 static void
 list_in_menu (GeglOperationClass *klass, const CeldOperationInfo *info)
 {
-  char *label = g_strdup_printf ("%s...", TRANSLATED (info->title));
+  char *label = g_strdup_printf ("%s...", _ (info->title));
 
   gegl_operation_class_set_keys (klass, "gimp:menu-path", "<Image>/Filters/Cartoon Depth", "gimp:menu-label", label,
                                  NULL);
@@ -148,9 +148,9 @@ init_operation (gpointer g_class, gpointer data)
     info->adjust (operation_class);
   gegl_operation_class_set_keys (operation_class,
     "name",            info->name,
-    "title",           TRANSLATED (info->title),
+    "title",           _ (info->title),
     "categories",      info->categories,
-    "description",     TRANSLATED (info->description),
+    "description",     _ (info->description),
     "reference",       info->reference,
     NULL);
   if (!info->unlisted)

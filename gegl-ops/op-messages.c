@@ -34,35 +34,40 @@ celd_op_try (CeldOp *op, CeldStatus status)
 {
   if (status == CELD_NOTHING_TO_GO_BY && op->choosing)
     return FALSE;
-  return status == CELD_OK || celd_op_fail (op, "%s", celd_status_text (status));
+  return status == CELD_OK || celd_op_fail (op, "%s", _ (celd_status_text (status)));
 }
 
-/* As celd_op_try, for a text; the message says where it cannot be read, and gives an example. */
+/* As celd_op_try, for a text; `format` says where it cannot be read, and gives an example. */
 static gboolean
-try_text (CeldOp *op, CeldStatus status, const CeldTextError *error, const char *what, const char *example)
+try_text (CeldOp *op, CeldStatus status, const CeldTextError *error, const char *format)
 {
   if (status != CELD_BAD_RELATION)
     return celd_op_try (op, status);
-  return celd_op_fail (op, "The %s cannot be read: line %d, column %d has %s where %s was expected. An "
-                       "example of %s", what, error->line, error->column, error->found, error->expected, example);
+  return celd_op_fail (op, format, error->line, error->column, _ (error->found), _ (error->expected));
 }
 
 gboolean
 celd_op_try_text (CeldOp *op, CeldStatus status, const CeldTextError *error)
 {
-  return try_text (op, status, error, "relations", "a relation is: 120,80 > 300,95");
+  return try_text (op, status, error,
+                   _ ("The relations cannot be read: line %d, column %d has %s where %s was expected. An example of a "
+                      "relation is: 120,80 > 300,95"));
 }
 
 gboolean
 celd_op_try_path (CeldOp *op, CeldStatus status, const CeldTextError *error)
 {
-  return try_text (op, status, error, "arrow path", "an arrow is: M 120,80 L 300,95");
+  return try_text (op, status, error,
+                   _ ("The arrow path cannot be read: line %d, column %d has %s where %s was expected. An example of "
+                      "an arrow is: M 120,80 L 300,95"));
 }
 
 gboolean
 celd_op_try_handles (CeldOp *op, CeldStatus status, const CeldTextError *error)
 {
-  return try_text (op, status, error, "handles", "a handle is: 120,80 -> 200,60");
+  return try_text (op, status, error,
+                   _ ("The handles cannot be read: line %d, column %d has %s where %s was expected. An example of a "
+                      "handle is: 120,80 -> 200,60"));
 }
 
 gboolean

@@ -22,7 +22,7 @@ void
 celd_operation_attach (GeglOperation *operation)
 {
   for (const CeldPad *pad = CELD_OPERATION_CLASS_OF (operation)->info->pads; pad->name; pad++)
-    create_pad (operation, pad->name, TRANSLATED (pad->label), TRANSLATED (pad->description), G_PARAM_READWRITE,
+    create_pad (operation, pad->name, _ (pad->label), _ (pad->description), G_PARAM_READWRITE,
                 GEGL_PARAM_PAD_INPUT);
   create_pad (operation, "output", "Output", "The result", G_PARAM_READABLE, GEGL_PARAM_PAD_OUTPUT);
 }
@@ -70,11 +70,11 @@ report_size (CeldOp *op, const CeldPad *pad, const GeglRectangle *r)
   if (gegl_rectangle_equal (r, p) || gegl_rectangle_is_infinite_plane (r))
     return;
   g_snprintf (text, sizeof text,
-              "'%s' has %d x %d pixels at %d, %d, but the picture has %d x %d at %d, %d. Pixels outside the picture "
-              "are ignored, and missing pixels are empty. %s",
-              pad->label, r->width, r->height, r->x, r->y, p->width, p->height, p->x, p->y,
-              help ? help : "If the result is shifted, give the layer the picture's size (in GIMP: Layer, Layer to Image "
-                            "Size, for this layer and for the one that the filter is applied to).");
+              _ ("'%s' has %d x %d pixels at %d, %d, but the picture has %d x %d at %d, %d. Pixels outside the picture "
+                 "are ignored, and missing pixels are empty. %s"),
+              _ (pad->label), r->width, r->height, r->x, r->y, p->width, p->height, p->x, p->y,
+              help ? _ (help) : _ ("If the result is shifted, give the layer the picture's size (in GIMP: Layer, Layer to "
+                               "Image Size, for this layer and for the one that the filter is applied to)."));
   celd_op_add_line (op, text);
 }
 
@@ -83,8 +83,8 @@ static gboolean
 check_sample (CeldOp *op, const CeldPad *pad, const GeglRectangle *r)
 {
   if (gegl_rectangle_is_infinite_plane (r) || r->width > CELD_MAX_SIDE || r->height > CELD_MAX_SIDE)
-    return celd_op_fail (op, "The picture for '%s' (pad %s) is too large. Scale it down or crop it.", pad->label,
-                         pad->name);
+    return celd_op_fail (op, _ ("The picture for '%s' (pad %s) is too large. Scale it down or crop it."),
+                         _ (pad->label), pad->name);
   return TRUE;
 }
 
@@ -102,17 +102,17 @@ check_pad (CeldOp *op, const CeldPad *pad)
     }
   if (!r)
     return pad->required != TRUE ||
-           celd_op_fail (op, "There is no picture for '%s' (pad %s). Choose a layer.", pad->label, pad->name);
+           celd_op_fail (op, _ ("There is no picture for '%s' (pad %s). Choose a layer."), _ (pad->label), pad->name);
   if (!r->width || !r->height)
-    return celd_op_fail (op, "The picture for '%s' (pad %s) is empty. Choose another layer, or check that its "
-                             "file can be read.",
-                         pad->label, pad->name);
+    return celd_op_fail (op, _ ("The picture for '%s' (pad %s) is empty. Choose another layer, or check that its "
+                                "file can be read."),
+                         _ (pad->label), pad->name);
   if (pad->required == CELD_PAD_SAMPLE)
     return check_sample (op, pad, r);
   if (!gegl_rectangle_intersect (NULL, r, p))
-    return celd_op_fail (op, "'%s' (%d x %d pixels at %d, %d) lies outside the picture (%d x %d at %d, %d). "
-                         "Move it over the picture, or give it the picture's size.",
-                         pad->label, r->width, r->height, r->x, r->y, p->width, p->height, p->x, p->y);
+    return celd_op_fail (op, _ ("'%s' (%d x %d pixels at %d, %d) lies outside the picture (%d x %d at %d, %d). Move "
+                                "it over the picture, or give it the picture's size."),
+                         _ (pad->label), r->width, r->height, r->x, r->y, p->width, p->height, p->x, p->y);
   report_size (op, pad, r);
   return TRUE;
 }
@@ -123,10 +123,10 @@ celd_op_check_pads (CeldOp *op)
   const GeglRectangle *p = &op->picture;
 
   if (gegl_rectangle_is_infinite_plane (p))
-    return celd_op_fail (op, "The input is infinitely large. Crop it first.");
+    return celd_op_fail (op, _ ("The input is infinitely large. Crop it first."));
   if (p->width > CELD_MAX_SIDE || p->height > CELD_MAX_SIDE)
-    return celd_op_fail (op, "The picture has %d x %d pixels; the limit is %d pixels per side. Scale it down "
-                             "first.",
+    return celd_op_fail (op, _ ("The picture has %d x %d pixels; the limit is %d pixels per side. Scale it down "
+                                "first."),
                          p->width, p->height, CELD_MAX_SIDE);
   for (const CeldPad *pad = CELD_OPERATION_CLASS_OF (op->operation)->info->pads; pad->name; pad++)
     if (!check_pad (op, pad))

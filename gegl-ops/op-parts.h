@@ -16,9 +16,6 @@
 
 #include "op.h"
 
-/* A text of a table in the language of the host. */
-#define TRANSLATED(text) g_dgettext ("celdepth", text)
-
 /* ------------------------------------------------------------------ op.c */
 
 /* GeglOperationClass.process */

@@ -16,7 +16,7 @@ choice_type (const CeldSettingInfo *row)
     return type;
   values = g_new0 (GEnumValue, row->choices + 1); /* never freed, like the type */
   for (gsize i = 0; i < row->choices; i++)
-    values[i] = (GEnumValue) { (int) i, TRANSLATED (row->choice[i].label), row->choice[i].nick };
+    values[i] = (GEnumValue) { (int) i, _ (row->choice[i].label), row->choice[i].nick };
   return g_enum_register_static (row->choice_type, values);
 }
 
@@ -95,8 +95,8 @@ celd_operation_specify (const CeldProperty *property, const CeldSettingInfo *row
 {
   gboolean    angle = !g_strcmp0 (row->unit, "degree");
   char       *visible = condition (property, row);
-  GParamSpec *spec = make_spec (row, row->name, TRANSLATED (property->label ? property->label : row->label),
-                                TRANSLATED (property->help ? property->help : row->help));
+  GParamSpec *spec = make_spec (row, row->name, _ (property->label ? property->label : row->label),
+                                _ (property->help ? property->help : row->help));
 
   set_key (spec, "visible", visible);
   set_key (spec, "unit", row->unit);

@@ -19,6 +19,7 @@
 #include <gegl-plugin.h>
 
 #include "celdepth.h"
+#include "translate.h"
 
 #define CELD_TYPE_OPERATION (celd_operation_get_type ())
 

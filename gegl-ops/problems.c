@@ -4,18 +4,26 @@
  */
 #include "problems.h"
 
+#include "translate.h"
+
 #define MOST_PROBLEMS 8 /* in one message (chosen) */
+
+const char *
+celd_in_language (const char *text)
+{
+  return _ (text);
+}
 
 char *
 celd_problem_line (const CeldProblem *problem, const CeldPalette *palette, const CeldRelations *relations,
                    const CeldOrder *order)
 {
-  char text[400], cycle[400];
+  char text[800], cycle[1000];
 
-  celd_problem_text (problem, palette, relations, text, sizeof text);
+  celd_problem_text (problem, palette, relations, celd_in_language, text, sizeof text);
   if (problem->kind != CELD_PROBLEM_CONTRADICTION || !order || problem->other >= order->n_cycles)
     return g_strdup (text);
-  celd_cycle_text (&order->cycle[problem->other], relations, cycle, sizeof cycle);
+  celd_cycle_text (&order->cycle[problem->other], relations, celd_in_language, cycle, sizeof cycle);
   return g_strconcat (text, " ", cycle, NULL);
 }
 
@@ -31,5 +39,11 @@ celd_problems_append (GString *message, const CeldProblems *problems, const Celd
       g_free (line);
     }
   if (problems && problems->n > MOST_PROBLEMS)
-    g_string_append_printf (message, "\nThere are %" G_GSIZE_FORMAT " more messages.", problems->n - MOST_PROBLEMS);
+    {
+      guint more = (guint) problems->n - MOST_PROBLEMS;
+
+      g_string_append_c (message, '\n');
+      g_string_append_printf (message, g_dngettext (CELD_DOMAIN, "There is %u more message.",
+                                                    "There are %u more messages.", more), more);
+    }
 }

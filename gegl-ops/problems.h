@@ -9,6 +9,9 @@
 
 #include "celdepth.h"
 
+/* A text of core in the language of the host: a CeldTranslate. */
+const char *celd_in_language (const char *text);
+
 /* What is wrong, where and what to do, of a contradiction also with what else is in it; to be freed.  `order` has the
  * cycles of contradictions; it, the palette and the relations may be NULL. */
 char *celd_problem_line (const CeldProblem *problem, const CeldPalette *palette, const CeldRelations *relations,

@@ -3,8 +3,8 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "front-end.h"
+#include "translate.h"
 
-#include <glib/gi18n.h>
 #include <math.h>
 #include <string.h>
 
@@ -88,8 +88,8 @@ celd_pictures_read (const char *text, guint *wanted, GError **error)
       {
         int picture = find_picture (name[i]);
 
-        good  = picture >= 0 || fail (error, "There is no picture \"%s\". They are regions, levels, depth, normals, "
-                                      "shading, lit and enhanced.%s", name[i], "");
+        good  = picture >= 0 || fail (error, _ ("There is no picture \"%s\". They are regions, levels, depth, "
+                                                "normals, shading, lit and enhanced.%s"), name[i], "");
         bits |= good ? 1u << picture : 0;
       }
   if (good && bits)
@@ -125,10 +125,10 @@ celd_setting_read (const char *name, const char *value, CeldSettings *settings, 
   double                 number;
 
   if (!row)
-    return fail (error, "There is no setting \"%s\".%s", name, "");
+    return fail (error, _ ("There is no setting \"%s\".%s"), name, "");
   number = parse (row, value);
   if (!celd_setting_allows (row, number))
-    return fail (error, "The setting %s cannot be \"%s\".", name, value);
+    return fail (error, _ ("The setting %s cannot be \"%s\"."), name, value);
   celd_setting_set (row, number, settings);
   return TRUE;
 }
@@ -150,7 +150,7 @@ celd_settings_read (const char *text, CeldSettings *settings, GError **error)
             good   = celd_setting_read (word[i], value + 1, settings, error);
           }
         else
-          good = fail (error, "\"%s\" is no setting: settings are NAME=VALUE.%s", word[i], "");
+          good = fail (error, _ ("\"%s\" is no setting: settings are NAME=VALUE.%s"), word[i], "");
       }
   g_strfreev (word);
   return good;

@@ -3,6 +3,7 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "live-solver.h"
+#include "translate.h"
 
 #define PREVIEW_FROM 200000 /* microseconds that depth takes, from which on a preview of it is shown; chosen */
 
@@ -219,7 +220,7 @@ show_frame (CeldLiveSolver *s, int picture, int frame, gboolean preview, GError 
   answer.pixels = g_try_malloc_n ((gsize) answer.width * (gsize) answer.height, 4);
   if (!answer.pixels)
     {
-      g_set_error_literal (error, CELD_PIPELINE_ERROR, CELD_PIPELINE_FAILED, celd_status_text (CELD_NO_MEMORY));
+      g_set_error_literal (error, CELD_PIPELINE_ERROR, CELD_PIPELINE_FAILED, _ (celd_status_text (CELD_NO_MEMORY)));
       return FALSE;
     }
   buffer = gegl_buffer_linear_new_from_data (answer.pixels, babl_format ("cairo-ARGB32"),

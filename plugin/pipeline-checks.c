@@ -31,13 +31,13 @@ check_scribbles (const CeldPipeline *p, const CeldPipelineInput *input, GError *
   gboolean  good = celd_pipeline_try (read_paint (p, input, CELD_LAYER_SCRIBBLES, &scribbles), error);
 
   if (good && !celd_are_scribbles (&scribbles))
-    good = celd_pipeline_fail (error, "The layer with the scribbles looks like a photograph: scribbles are strokes in "
-                               "flat colours on a blank layer. Choose another layer.");
+    good = celd_pipeline_fail (error, _ ("The layer with the scribbles looks like a photograph: scribbles are "
+                                         "strokes in flat colours on a blank layer. Choose another layer."));
   if (good && celd_is_grey (&scribbles))
     good = celd_pipeline_try (read_paint (p, input, CELD_LAYER_DRAWING, &drawing), error);
   if (good && drawing.data && celd_is_coloured_strokes (&drawing))
-    good = celd_pipeline_fail (error, "The layer chosen as the drawing looks like scribbles, and the one chosen as "
-                               "scribbles like a drawing. Exchange them, or scribble in clear colours.");
+    good = celd_pipeline_fail (error, _ ("The layer chosen as the drawing looks like scribbles, and the one chosen "
+                                         "as scribbles like a drawing. Exchange them, or scribble in clear colours."));
   g_free (drawing.data);
   g_free (scribbles.data);
   return good;
@@ -65,8 +65,8 @@ check_drawing (const CeldPipeline *p, const CeldPipelineInput *input, GError **e
   g_free (drawing.alpha.data);
   return celd_pipeline_try (status, error) &&
          (clarity >= CELD_LEAST_CLARITY ||
-          celd_pipeline_fail (error, "The layer with the drawing looks like a photograph or a painting without lines. "
-                              "If it is a drawing, say with the setting 'Ink' what its lines are."));
+          celd_pipeline_fail (error, _ ("The layer with the drawing looks like a photograph or a painting without "
+                                        "lines. If it is a drawing, say with the setting 'Ink' what its lines are.")));
 }
 
 gboolean
@@ -84,5 +84,5 @@ gboolean
 celd_pipeline_check_grey (const CeldPipelineLayer *layer, GError **error)
 {
   return !celd_buffer_has_hue (layer->buffer) ||
-         celd_pipeline_fail (error, "The layer is in colour: depth is grey. Choose a layer with depth or levels.");
+         celd_pipeline_fail (error, _ ("The layer is in colour: depth is grey. Choose a layer with depth or levels."));
 }

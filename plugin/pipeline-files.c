@@ -65,14 +65,15 @@ static gboolean
 check_mesh (CeldPipeline *p, CeldStatus status, double deviation, GError **error)
 {
   if (status == CELD_BAD_VALUE)
-    return celd_pipeline_fail (error, "The outlines alone have more than %.0f vertices. Allow more vertices.",
+    return celd_pipeline_fail (error, _ ("The outlines alone have more than %.0f vertices. Allow more vertices."),
                                (double) p->settings.most_vertices);
   if (!celd_pipeline_try (status, error))
     return FALSE;
   g_free (p->note);
   p->note = deviation > 1.01 * (double) p->settings.mesh_error
-              ? g_strdup_printf ("With %.0f vertices at most, the mesh deviates by up to %.1f pixels from the shape. "
-                                 "Allow more vertices if that shows.", (double) p->settings.most_vertices, deviation)
+              ? g_strdup_printf (_ ("With %.0f vertices at most, the mesh deviates by up to %.1f pixels from the "
+                                    "shape. Allow more vertices if that shows."),
+                                 (double) p->settings.most_vertices, deviation)
               : NULL;
   return TRUE;
 }
@@ -145,7 +146,7 @@ celd_pipeline_save_model (CeldPipeline *p, const char *path, CeldPipelineProgres
                           GError **error)
 {
   CeldPipelineReport before = { progress, data, NULL, 0, BEGIN_MESH };
-  CeldPipelineReport r = { progress, data, "Making the mesh", BEGIN_MESH, 1 - BEGIN_MESH };
+  CeldPipelineReport r = { progress, data, N_ ("Making the mesh"), BEGIN_MESH, 1 - BEGIN_MESH };
   CeldHost           host = { celd_pipeline_report, celd_gegl_each, &r };
   gboolean           whole = p->settings.mesh_kind == CELD_MESH_HEIGHTFIELD;
   CeldColours        art = { 0 };

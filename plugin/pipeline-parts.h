@@ -6,6 +6,7 @@
 #define CELD_PIPELINE_PARTS_H
 
 #include "pipeline.h"
+#include "translate.h"
 
 struct CeldPipeline
 {

@@ -5,6 +5,7 @@
 #include "pipeline-parts.h"
 
 #include "buffers.h"
+#include "problems.h"
 
 /* Where the parts of the work begin, as fractions of its time; chosen */
 #define BEGIN_LAYERS 0.5
@@ -41,7 +42,7 @@ draw_views (CeldPipeline *p, const CeldScene *scene, CeldPipelineReport *r)
 
   for (int i = 0; i < 2 && status == CELD_OK; i++)
     {
-      r->name = i ? "Drawing the right view" : "Drawing the left view";
+      r->name = i ? N_ ("Drawing the right view") : N_ ("Drawing the left view");
       r->part = (1 - BEGIN_VIEWS) / 2;
       r->from = BEGIN_VIEWS + i * r->part;
       g_free (p->view[i].data);
@@ -58,7 +59,7 @@ finish_views (CeldPipeline *p)
 {
   CeldPlane   depth;
   CeldComfort comfort;
-  char        text[800];
+  char        text[1200];
   CeldStatus  status = celd_session_depth (p->session, NULL, &depth, NULL);
 
   if (status == CELD_OK && p->settings.floating_window)
@@ -67,7 +68,7 @@ finish_views (CeldPipeline *p)
     status = celd_stereo_comfort (&depth, &p->settings, &comfort);
   if (status != CELD_OK)
     return status;
-  celd_comfort_text (&comfort, &p->settings, text, sizeof text);
+  celd_comfort_text (&comfort, &p->settings, celd_in_language, text, sizeof text);
   g_free (p->note);
   p->note = text[0] ? g_strdup (text) : NULL;
   return CELD_OK;
@@ -93,7 +94,7 @@ celd_pipeline_view (CeldPipeline *p, CeldPipelineProgress progress, gpointer dat
 {
   CeldPipelineReport before = { progress, data, NULL, 0, BEGIN_LAYERS };
   CeldPipelineReport layers = { progress, data, NULL, BEGIN_LAYERS, BEGIN_SCENE - BEGIN_LAYERS };
-  CeldPipelineReport r = { progress, data, "Placing the layers", BEGIN_SCENE, BEGIN_VIEWS - BEGIN_SCENE };
+  CeldPipelineReport r = { progress, data, N_ ("Placing the layers"), BEGIN_SCENE, BEGIN_VIEWS - BEGIN_SCENE };
 
   return celd_pipeline_try (celd_pipeline_complete_layers (p, true), error) &&
          celd_pipeline_make (p, OF (DEPTH), celd_pipeline_report_steps, &before, error) &&

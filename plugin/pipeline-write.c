@@ -111,7 +111,7 @@ gboolean
 celd_pipeline_write_preview (CeldPipeline *p, CeldPipelineProgress progress, gpointer data, GeglBuffer *buffer,
                              GError **error)
 {
-  CeldPipelineReport r = { progress, data, "Previewing depth", 0, 1 };
+  CeldPipelineReport r = { progress, data, N_ ("Previewing depth"), 0, 1 };
   CeldHost           host = { celd_pipeline_report, celd_gegl_each, &r };
   CeldPlane          quarter;
   CeldStatus         status = celd_session_depth_preview (p->session, &host, &quarter, NULL);
@@ -154,7 +154,7 @@ gboolean
 celd_pipeline_cut (CeldPipeline *p, int bits, CeldPipelineProgress progress, gpointer data, GError **error)
 {
   CeldPipelineReport before = { progress, data, NULL, 0, BEFORE_CUTTING };
-  CeldPipelineReport r = { progress, data, "Cutting the layers", BEFORE_CUTTING, 1 - BEFORE_CUTTING };
+  CeldPipelineReport r = { progress, data, N_ ("Cutting the layers"), BEFORE_CUTTING, 1 - BEFORE_CUTTING };
   CeldHost           host = { celd_pipeline_report, celd_gegl_each, &r };
   CeldStore          store = bits <= 8 ? CELD_STORE_8_BIT_SRGB : CELD_STORE_FLOAT;
 

@@ -8,11 +8,6 @@
 
 #include "buffers.h"
 
-static const char *const layer_names[CELD_N_LAYERS] = {
-  [CELD_LAYER_DRAWING]  = "drawing",  [CELD_LAYER_SCRIBBLES]   = "scribbles",   [CELD_LAYER_ARROWS] = "arrows",
-  [CELD_LAYER_CONTOURS] = "contours", [CELD_LAYER_CORRECTIONS] = "corrections", [CELD_LAYER_HIDDEN] = "hidden",
-};
-
 G_DEFINE_QUARK (celd-pipeline-error, celd_pipeline_error)
 
 /* ------------------------------------------------------------------ errors and memory */
@@ -35,7 +30,7 @@ celd_pipeline_try (CeldStatus status, GError **error)
   if (status != CELD_OK)
     g_set_error_literal (error, CELD_PIPELINE_ERROR,
                          status == CELD_CANCELLED ? CELD_PIPELINE_CANCELLED : CELD_PIPELINE_FAILED,
-                         celd_status_text (status));
+                         _ (celd_status_text (status)));
   return status == CELD_OK;
 }
 
@@ -72,26 +67,34 @@ image_rectangle (const CeldPipeline *p, const CeldPipelineLayer *layer)
   return (GeglRectangle) { -layer->x, -layer->y, p->width, p->height };
 }
 
+/* In the language of the host: "Scribbles". */
+static const char *
+name_of (int role)
+{
+  return _ (celd_layer_role_name ((CeldLayerRole) role));
+}
+
 static gboolean
 check_input (const CeldPipelineInput *input, GError **error)
 {
   if (input->width < 1 || input->height < 1 || input->width > CELD_MAX_SIDE || input->height > CELD_MAX_SIDE)
-    return celd_pipeline_fail (error, "The image has %d x %d pixels; the limit is %d pixels a side. Scale it down "
-                               "first.", input->width, input->height, CELD_MAX_SIDE);
+    return celd_pipeline_fail (error, _ ("The image has %d x %d pixels; the limit is %d pixels a side. Scale it "
+                                         "down first."), input->width, input->height, CELD_MAX_SIDE);
   if (!input->layer[CELD_LAYER_DRAWING].buffer)
-    return celd_pipeline_fail (error, "There is no drawing. Choose its layer.");
+    return celd_pipeline_fail (error, _ ("There is no drawing. Choose its layer."));
   for (int role = 0; role < CELD_N_LAYERS; role++)
     {
       const CeldPipelineLayer *layer = &input->layer[role];
       const GeglRectangle     *r = layer->buffer ? gegl_buffer_get_extent (layer->buffer) : NULL;
 
       if (r && !gegl_rectangle_intersect (NULL, r, GEGL_RECTANGLE (-layer->x, -layer->y, input->width, input->height)))
-        return celd_pipeline_fail (error, "The layer with the %s lies outside the image. Move it over the image.",
-                                   layer_names[role]);
+        return celd_pipeline_fail (error, _ ("The layer with '%s' lies outside the image. Move it over the image."),
+                                   name_of (role));
       for (int other = 0; r && other < role; other++)
         if (layer->buffer == input->layer[other].buffer)
-          return celd_pipeline_fail (error, "The same layer is chosen as %s and as %s. Give each a layer of its own.",
-                                     layer_names[other], layer_names[role]);
+          return celd_pipeline_fail (error, _ ("The same layer is chosen as '%s' and as '%s'. Give each a layer of its "
+                                               "own."),
+                                     name_of (other), name_of (role));
     }
   return TRUE;
 }
@@ -167,9 +170,9 @@ set_relations (CeldPipeline *p, const char *relations, GError **error)
 
   if (status != CELD_BAD_RELATION)
     return celd_pipeline_try (status, error);
-  return celd_pipeline_fail (error, "The relations cannot be read: line %d, column %d has %s where %s was expected. "
-                             "An example of a relation is: 120,80 > 300,95", place.line, place.column, place.found,
-                             place.expected);
+  return celd_pipeline_fail (error, _ ("The relations cannot be read: line %d, column %d has %s where %s was "
+                                       "expected. An example of a relation is: 120,80 > 300,95"),
+                             place.line, place.column, _ (place.found), _ (place.expected));
 }
 
 /* The host makes the path of its own items, so that what is wrong with it cannot be pointed at. */
@@ -181,8 +184,8 @@ set_arrow_path (CeldPipeline *p, const char *path, GError **error)
 
   if (status != CELD_BAD_RELATION)
     return celd_pipeline_try (status, error);
-  return celd_pipeline_fail (error, "The path with arrows cannot be read: it has %s where %s was expected.",
-                             place.found, place.expected);
+  return celd_pipeline_fail (error, _ ("The path with arrows cannot be read: it has %s where %s was expected."),
+                             _ (place.found), _ (place.expected));
 }
 
 static gboolean
@@ -195,8 +198,8 @@ check_lines (CeldPipeline *p, GError **error)
     return TRUE;
   return celd_pipeline_try (celd_session_ink (p->session, &host, &ink, NULL), error) &&
          (celd_ink_has_lines (&ink) ||
-          celd_pipeline_fail (error, "The layer with the drawing has no lines: it is blank, or its lines are too "
-                              "faint. Choose another layer, or another setting of 'Ink'."));
+          celd_pipeline_fail (error, _ ("The layer with the drawing has no lines: it is blank, or its lines are too "
+                                        "faint. Choose another layer, or another setting of 'Ink'.")));
 }
 
 /* Levels are in [0,1] whatever their encoding says. */
@@ -379,15 +382,15 @@ static const struct
   double      time;
   CeldStatus (*make) (CeldPipeline *p, const CeldHost *host);
 } steps[] = {
-  { "Finding the regions",   ~0u,              45, make_labels },
-  { "Suggesting an order",   OF (SUGGESTIONS),  5, make_suggestions },
-  { "Ordering the regions",  NEED_LEVELS,       1, make_order },
-  { "Giving lines to parts", NEED_LEVELS,      10, make_levels },
-  { "Making depth smooth",   OF (DEPTH),       15, make_depth },
-  { "Rounding the parts",    NEED_LIGHT,       20, make_normals },
-  { "Lighting the parts",    OF (SHADING),      2, make_shading },
-  { "Lighting the drawing",  OF (LIT),          4, make_lit },
-  { "Casting shadows",       OF (ENHANCED),     3, make_enhanced },
+  { N_ ("Finding the regions"),   ~0u,              45, make_labels },
+  { N_ ("Suggesting an order"),   OF (SUGGESTIONS),  5, make_suggestions },
+  { N_ ("Ordering the regions"),  NEED_LEVELS,       1, make_order },
+  { N_ ("Giving lines to parts"), NEED_LEVELS,      10, make_levels },
+  { N_ ("Making depth smooth"),   OF (DEPTH),       15, make_depth },
+  { N_ ("Rounding the parts"),    NEED_LIGHT,       20, make_normals },
+  { N_ ("Lighting the parts"),    OF (SHADING),      2, make_shading },
+  { N_ ("Lighting the drawing"),  OF (LIT),          4, make_lit },
+  { N_ ("Casting shadows"),       OF (ENHANCED),     3, make_enhanced },
 };
 
 bool
@@ -395,7 +398,7 @@ celd_pipeline_report (void *data, double done)
 {
   const CeldPipelineReport *r = data;
 
-  return !r->progress || r->progress (r->data, MIN (r->from + r->part * done, 1), r->name);
+  return !r->progress || r->progress (r->data, MIN (r->from + r->part * done, 1), _ (r->name));
 }
 
 gboolean

@@ -212,6 +212,13 @@ void celd_parallel_for (const CeldHost *host, int n, void (*body) (void *data, i
 CeldStatus celd_parallel_rounds (const CeldHost *host, int n, int at_once, void (*body) (void *data, int i), void *data,
                                  int *first, double from, double to);
 
+/* ------------------------------------------------------------------ messages.c: sentences for artists */
+
+#define N_(text) text /* one that hosts translate, for xgettext */
+
+/* The text in another language, for which `translate` may be NULL. */
+const char *celd_in (CeldTranslate translate, const char *text) __attribute__ ((format_arg (2)));
+
 /* ------------------------------------------------------------------ text.c: reading text */
 
 /* The state of a reader. */

@@ -64,9 +64,9 @@ celd_text_refuse (const CeldReader *r, const char *expected)
   error->column = r->column;
   snprintf (error->expected, sizeof error->expected, "%s", expected);
   if (!*r->at)
-    snprintf (error->found, sizeof error->found, "the end of the text");
+    snprintf (error->found, sizeof error->found, N_ ("the end of the text"));
   else if (celd_text_at_line_end (r))
-    snprintf (error->found, sizeof error->found, "the end of the line");
+    snprintf (error->found, sizeof error->found, N_ ("the end of the line"));
   else if (length == 0 || (unsigned char) *r->at < ' ' || *r->at == 127)
     snprintf (error->found, sizeof error->found, "byte 0x%02x", (unsigned) (unsigned char) *r->at);
   else
@@ -122,7 +122,7 @@ celd_text_number (CeldReader *r, bool svg, const char *expected, double *number)
     celd_text_advance (r);
   for (; celd_text_is_digit (*r->at); celd_text_advance (r), any = true)
     if ((mantissa = mantissa * 10 + (*r->at - '0')) >= LARGEST_NUMBER)
-      return celd_text_refuse (&start, "a smaller number");
+      return celd_text_refuse (&start, N_ ("a smaller number"));
   if (*r->at == '.')
     for (celd_text_advance (r); celd_text_is_digit (*r->at); celd_text_advance (r), any = true)
       if (mantissa < LARGEST_NUMBER * 1e5 && divisor < 1e15) /* later decimals are below the precision of the result */
@@ -137,7 +137,7 @@ celd_text_number (CeldReader *r, bool svg, const char *expected, double *number)
   if (exponent)
     *number *= pow (10, exponent);
   if (!(fabs (*number) < LARGEST_NUMBER)) /* also refuses 0 * infinity */
-    return celd_text_refuse (&start, "a smaller number");
+    return celd_text_refuse (&start, N_ ("a smaller number"));
   return CELD_OK;
 }
 

@@ -59,7 +59,7 @@ typedef struct { CeldRelation *item; size_t n; } CeldRelations;
 
 CELD_API void celd_relations_clear (CeldRelations *relations);
 
-/* Where relations text or path data could not be read. */
+/* Where relations text or path data could not be read, with texts in English. */
 typedef struct { int line, column; char expected[48]; char found[24]; } CeldTextError;
 
 /* A problem that the artist should know of; there is a result all the same. */
@@ -95,10 +95,10 @@ CELD_API void celd_problems_clear (CeldProblems *problems);
 /* Draws a red ring with a dot at its centre round the place of each problem, over what the picture contains. */
 CELD_API void celd_problems_paint (const CeldProblems *problems, CeldPaint *paint);
 
-/* Writes one English sentence that says what is wrong, where, and what to do; cut to `size` bytes with the final 0.
- * palette and relations may be NULL: the sentence then has no colours and no line numbers. */
+/* Writes what is wrong, where, and what to do; cut to `size` bytes with the final 0.  palette and relations may be
+ * NULL: the sentence then has no colours and no line numbers. */
 CELD_API void celd_problem_text (const CeldProblem *problem, const CeldPalette *palette, const CeldRelations *relations,
-                                 char *text, size_t size);
+                                 CeldTranslate translate, char *text, size_t size);
 
 /* Relations that contradict each other: item[0..n-1] are indices into the relations, in the order of the cycle (the
  * farther region of each is the nearer region of the next, and that of the last the nearer region of the first). */
@@ -136,9 +136,10 @@ typedef struct
 
 CELD_API void celd_order_clear (CeldOrder *order);
 
-/* Writes one English sentence that names the other relations of the cycle, those that contradict the one left out; cut
- * to `size` bytes with the final 0. */
-CELD_API void celd_cycle_text (const CeldCycle *cycle, const CeldRelations *relations, char *text, size_t size);
+/* Writes a sentence that names the other relations of the cycle, those that contradict the one left out; cut to `size`
+ * bytes with the final 0. */
+CELD_API void celd_cycle_text (const CeldCycle *cycle, const CeldRelations *relations, CeldTranslate translate,
+                               char *text, size_t size);
 
 /* A gap in a contour that the segmentation closed: a polyline from one line end to another, between two labels. */
 typedef struct { double x, y; } CeldPlace;

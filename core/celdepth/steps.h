@@ -344,10 +344,10 @@ typedef struct { double front, behind; bool cut_left, cut_right, diverges; } Cel
 #define CELD_STEREO_COMFORT (1.0 / 30) /* fraction of the width: more disparity from front to back strains the eyes */
 #define CELD_EYE_DISTANCE   65.0       /* mm: with more behind the screen the eyes diverge */
 CELD_API CeldStatus celd_stereo_comfort (const CeldPlane *depth, const CeldSettings *settings, CeldComfort *comfort);
-/* Describes what strains the eyes and how to avoid it, one English sentence on each line, cut to `size` bytes; "" if
- * nothing does. */
-CELD_API void       celd_comfort_text   (const CeldComfort *comfort, const CeldSettings *settings, char *text,
-                                         size_t size);
+/* Describes what strains the eyes and how to avoid it, one sentence on each line, cut to `size` bytes; "" if nothing
+ * does. */
+CELD_API void       celd_comfort_text   (const CeldComfort *comfort, const CeldSettings *settings,
+                                         CeldTranslate translate, char *text, size_t size);
 /* Draws a floating window: black bars at the left of the left view and at the right of the right view, as narrow as
  * they can be for the frame to appear in front of what it cuts off. */
 CELD_API CeldStatus celd_stereo_window (const CeldPlane *depth, const CeldSettings *settings, CeldColours *left,

@@ -39,6 +39,10 @@ typedef enum
 /* An English sentence for a status, in static storage. */
 CELD_API const char *celd_status_text (CeldStatus status);
 
+/* Gives a text of core, which may be a format, in another language, with the same conversions, in storage that stays:
+ * the host's gettext.  NULL: texts are in English. */
+typedef const char *(*CeldTranslate) (const char *text);
+
 /* What the calling program lends to a long call: progress with a way to cancel, and threads.  Without a CeldHost
  * (NULL), or with NULL members, there are no reports, no cancel, and one thread.  Results do not depend on `each`. */
 typedef struct

@@ -85,7 +85,7 @@ static CeldStatus
 read_flag (CeldReader *r, double *flag)
 {
   if (*r->at != '0' && *r->at != '1')
-    return celd_text_refuse (r, "a flag of an arc: 0 or 1");
+    return celd_text_refuse (r, N_ ("a flag of an arc: 0 or 1"));
   *flag = *r->at - '0';
   celd_text_advance (r);
   return CELD_OK;
@@ -104,8 +104,8 @@ read_numbers (CeldReader *r, const Command *command, double *number)
       if (i)
         skip_comma (r);
       status = flag ? read_flag (r, &number[i])
-                    : celd_text_number (r, true, i == command->x ? "a number for x" :
-                                                 i == command->y ? "a number for y" : "a number", &number[i]);
+                    : celd_text_number (r, true, i == command->x ? N_ ("a number for x") :
+                                                 i == command->y ? N_ ("a number for y") : N_ ("a number"), &number[i]);
     }
   return status;
 }
@@ -123,9 +123,9 @@ end_arrow (Path *path)
     return CELD_OK;
   path->begun = false;
   if (!path->drawn)
-    return celd_text_refuse (&path->r, "a line to the arrow's farther end");
+    return celd_text_refuse (&path->r, N_ ("a line to the arrow's farther end"));
   if (fabs (path->x - path->first_x) <= 0 && fabs (path->y - path->first_y) <= 0)
-    return celd_text_refuse (&path->start, "an arrow with two different ends");
+    return celd_text_refuse (&path->start, N_ ("an arrow with two different ends"));
   return celd_relation_add (path->relations, relation);
 }
 
@@ -192,7 +192,7 @@ read_command (Path *path)
   CeldStatus     status = CELD_OK;
 
   if (!command)
-    return celd_text_refuse (&start, "a letter of path data such as L");
+    return celd_text_refuse (&start, N_ ("a letter of path data such as L"));
   if (command->letter == 'M' || command->letter == 'Z')
     status = end_arrow (path);
   if (status != CELD_OK)
@@ -217,7 +217,7 @@ celd_arrow_path_parse (const char *text, CeldRelations *relations, CeldTextError
 
   skip_blanks (&path.r);
   if (*path.r.at && *path.r.at != 'M' && *path.r.at != 'm')
-    status = celd_text_refuse (&path.r, "M or m, with which path data begin");
+    status = celd_text_refuse (&path.r, N_ ("M or m, with which path data begin"));
   while (*path.r.at && status == CELD_OK)
     status = read_command (&path);
   if (status == CELD_OK)

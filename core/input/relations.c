@@ -55,7 +55,7 @@ read_colour (CeldReader *r, CeldTerm *term)
       int digit = hexadecimal (*r->at);
 
       if (digit < 0)
-        return celd_text_refuse (r, "a hexadecimal digit of \"#rrggbb\"");
+        return celd_text_refuse (r, N_ ("a hexadecimal digit of \"#rrggbb\""));
       term->colour[i / 2] = (uint8_t) (term->colour[i / 2] * 16 + digit);
     }
   return CELD_OK;
@@ -64,16 +64,16 @@ read_colour (CeldReader *r, CeldTerm *term)
 static CeldStatus
 read_point (CeldReader *r, CeldTerm *term)
 {
-  CeldStatus status = celd_text_number (r, false, "a point \"x,y\" or a colour \"#rrggbb\"", &term->x);
+  CeldStatus status = celd_text_number (r, false, N_ ("a point \"x,y\" or a colour \"#rrggbb\""), &term->x);
 
   if (status != CELD_OK)
     return status;
   celd_text_skip_blanks (r);
   if (*r->at != ',')
-    return celd_text_refuse (r, "a comma between x and y");
+    return celd_text_refuse (r, N_ ("a comma between x and y"));
   celd_text_advance (r);
   celd_text_skip_blanks (r);
-  return celd_text_number (r, false, "a number for y", &term->y);
+  return celd_text_number (r, false, N_ ("a number for y"), &term->y);
 }
 
 static bool
@@ -94,7 +94,7 @@ read_name (CeldReader *r, const Names *names, CeldTerm *term)
   n = (size_t) (r->at - start.at);
   celd_text_skip_blanks (r);
   if (!n || *r->at != ':')
-    return celd_text_refuse (&start, "the name of a drawing and \":\"");
+    return celd_text_refuse (&start, N_ ("the name of a drawing and \":\""));
   celd_text_advance (r);
   celd_text_skip_blanks (r);
   for (size_t i = 0; i < names->n; i++)
@@ -103,7 +103,7 @@ read_name (CeldReader *r, const Names *names, CeldTerm *term)
         term->fragment = i;
         return CELD_OK;
       }
-  return celd_text_refuse (&start, "the name of one of the drawings");
+  return celd_text_refuse (&start, N_ ("the name of one of the drawings"));
 }
 
 static CeldStatus
@@ -137,7 +137,7 @@ read_mark (CeldReader *r, CeldRelation *flags)
   if (!crack && !anchor)
     {
       celd_text_advance (r);
-      return celd_text_refuse (r, "\"crack\" or \"anchor\"");
+      return celd_text_refuse (r, N_ ("\"crack\" or \"anchor\""));
     }
   for (int i = 0; i < (crack ? 6 : 7); i++)
     celd_text_advance (&behind);
@@ -187,7 +187,7 @@ read_relation (void *data, CeldReader *r)
   CeldStatus     status = read_term (r, names, &left);
 
   if (status == CELD_OK && (!*r->at || !strchr ("<>=", *r->at)))
-    return celd_text_refuse (r, "\">\", \"<\" or \"=\"");
+    return celd_text_refuse (r, N_ ("\">\", \"<\" or \"=\""));
   while (status == CELD_OK && *r->at && strchr ("<>=", *r->at))
     {
       char sign = *r->at;

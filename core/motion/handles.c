@@ -29,15 +29,15 @@ read_place (CeldReader *r, double *x, double *y)
   CeldStatus status;
 
   celd_text_skip_blanks (r);
-  status = celd_text_number (r, false, "a place \"x,y\"", x);
+  status = celd_text_number (r, false, N_ ("a place \"x,y\""), x);
   celd_text_skip_blanks (r);
   if (status == CELD_OK && *r->at != ',')
-    return celd_text_refuse (r, "a comma between x and y");
+    return celd_text_refuse (r, N_ ("a comma between x and y"));
   if (status != CELD_OK)
     return status;
   celd_text_advance (r);
   celd_text_skip_blanks (r);
-  status = celd_text_number (r, false, "a number for y", y);
+  status = celd_text_number (r, false, N_ ("a number for y"), y);
   celd_text_skip_blanks (r);
   return status;
 }
@@ -56,7 +56,7 @@ read_handle (void *data, CeldReader *r)
     {
       celd_text_advance (r);
       if (*r->at != '>')
-        return celd_text_refuse (r, "\"->\"");
+        return celd_text_refuse (r, N_ ("\"->\""));
       celd_text_advance (r);
       status = read_place (r, &h.to_x, &h.to_y);
     }
@@ -64,7 +64,7 @@ read_handle (void *data, CeldReader *r)
     {
       celd_text_advance (r);
       celd_text_skip_blanks (r);
-      status = celd_text_number (r, false, "a number of levels", &h.depth);
+      status = celd_text_number (r, false, N_ ("a number of levels"), &h.depth);
       celd_text_skip_blanks (r);
     }
   if (status == CELD_OK)

@@ -81,9 +81,19 @@ celd_stereo_comfort (const CeldPlane *depth, const CeldSettings *settings, CeldC
   return CELD_OK;
 }
 
+/* Where the frame cuts what is in front of the screen. */
+static const char *
+cut_sides (const CeldComfort *comfort)
+{
+  if (comfort->cut_left && comfort->cut_right)
+    return N_ ("at the left and the right");
+  return comfort->cut_left ? N_ ("at the left") : N_ ("at the right");
+}
+
 /* Suggested values are rounded down, so that they suffice. */
 void
-celd_comfort_text (const CeldComfort *comfort, const CeldSettings *settings, char *text, size_t size)
+celd_comfort_text (const CeldComfort *comfort, const CeldSettings *settings, CeldTranslate translate, char *text,
+                   size_t size)
 {
   double whole = comfort->front + comfort->behind, disparity = (double) settings->disparity;
   double behind = comfort->behind * (double) settings->screen_width; /* mm */
@@ -93,22 +103,22 @@ celd_comfort_text (const CeldComfort *comfort, const CeldSettings *settings, cha
     text[0] = 0;
   if (whole > CELD_STEREO_COMFORT)
     used += (size_t) snprintf (text, size,
-                               "From front to back there is %.1f %% of the width, which strains the eyes: try a "
-                               "disparity of %.3f.\n",
+                               celd_in (translate, N_ ("From front to back there is %.1f %% of the width, which "
+                                                       "strains the eyes: try a disparity of %.3f.\n")),
                                100 * whole, floor (1000 * disparity * CELD_STEREO_COMFORT / whole) / 1000);
   if (comfort->diverges && used < size)
     used += (size_t) snprintf (text + used, size - used,
-                               "On a screen of %.0f mm what is farthest lies %.0f mm apart, more than the eyes do (%.0f"
-                               " mm), which would have to look apart: try a disparity of %.3f, or a convergence nearer"
-                               " to 0.\n",
+                               celd_in (translate, N_ ("On a screen of %.0f mm what is farthest lies %.0f mm apart, "
+                                                       "more than the eyes do (%.0f mm), which would have to look "
+                                                       "apart: try a disparity of %.3f, or a convergence nearer to "
+                                                       "0.\n")),
                                (double) settings->screen_width, behind, CELD_EYE_DISTANCE,
                                floor (1000 * disparity * CELD_EYE_DISTANCE / behind) / 1000);
   if ((comfort->cut_left || comfort->cut_right) && !settings->floating_window && used < size)
     used += (size_t) snprintf (text + used, size - used,
-                               "Parts in front of the screen are cut by the frame at the %s: try a convergence of 1, or"
-                               " the floating window.\n",
-                               comfort->cut_left && comfort->cut_right ? "left and the right"
-                               : comfort->cut_left ? "left" : "right");
+                               celd_in (translate, N_ ("Parts in front of the screen are cut by the frame %s: try a "
+                                                       "convergence of 1, or the floating window.\n")),
+                               celd_in (translate, cut_sides (comfort)));
   if (used && used < size)
     text[used - 1] = 0;
 }

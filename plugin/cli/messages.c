@@ -128,7 +128,7 @@ cli_say_problems (const CeldProblems *problems, const CeldPalette *palette, cons
       {
         char text[400];
 
-        celd_problem_text (&problems->item[i], palette, relations, text, sizeof text);
+        celd_problem_text (&problems->item[i], palette, relations, NULL, text, sizeof text);
         cli_say ("%s%s", text, problems->item[i].kind == CELD_PROBLEM_HIDDEN_UNSURE ? " Give it by --hidden." : "");
       }
   if (n > MOST_PROBLEMS)

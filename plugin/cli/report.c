@@ -246,7 +246,7 @@ add_problem (JsonBuilder *json, const CliReport *report, const CeldProblem *prob
   };
   char               text[400];
 
-  celd_problem_text (problem, report->palette, report->relations, text, sizeof text);
+  celd_problem_text (problem, report->palette, report->relations, NULL, text, sizeof text);
   json_builder_begin_object (json);
   add_text (json, "kind", kinds[problem->kind]);
   add_text (json, "text", text);

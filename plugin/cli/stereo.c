@@ -151,7 +151,7 @@ say_comfort (const CliScene *s)
 
   if (celd_stereo_comfort (&s->depth, s->settings, &comfort) != CELD_OK)
     return;
-  celd_comfort_text (&comfort, s->settings, text, sizeof text);
+  celd_comfort_text (&comfort, s->settings, NULL, text, sizeof text);
   for (char *line = strtok (text, "\n"); line; line = strtok (NULL, "\n"))
     cli_say ("%s", line);
 }

@@ -269,10 +269,10 @@ input_without_sense_is_refused (void)
   CHECK (refused (&input, "has no lines"));
   input = page_input ();
   input.layer[CELD_LAYER_ARROWS].x = WIDTH;
-  CHECK (refused (&input, "the arrows lies outside the image"));
+  CHECK (refused (&input, "'Arrows' lies outside the image"));
   input = page_input ();
   input.layer[CELD_LAYER_CONTOURS].buffer = scribbles;
-  CHECK (refused (&input, "chosen as scribbles and as contours"));
+  CHECK (refused (&input, "chosen as 'Scribbles' and as 'Contours'"));
   input = page_input ();
   input.relations = "12,34 < x";
   CHECK (refused (&input, "line 1, column 9"));

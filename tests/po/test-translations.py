@@ -50,7 +50,7 @@ class Translations(unittest.TestCase):
     def test_template(self):
         with tempfile.TemporaryDirectory() as out:
             path = os.path.join(out, 'new.pot')
-            run('xgettext', '--from-code=UTF-8', '-k_', '-kN_', '-kngettext:1,2', '-D', TOP, '-f', 'po/POTFILES',
+            run('xgettext', '--from-code=UTF-8', '-k_', '-kN_', '-kngettext:1,2', '-kg_dngettext:2,3', '-D', TOP, '-f', 'po/POTFILES',
                 '-o', path)
             self.assertEqual(set(texts_of(TEMPLATE)), set(texts_of(path)), 'see po/README.md')
 

@@ -24,22 +24,50 @@ problems_say_what_and_where (void)
   CeldProblem   unsure = { CELD_PROBLEM_HIDDEN_UNSURE, 56, 78, 1, 0, CELD_NO_INDEX };
   char          text[400], small[8] = "xxxxxxx";
 
-  celd_problem_text (&overruled, &palette, &relations, text, sizeof text);
+  celd_problem_text (&overruled, &palette, &relations, NULL, text, sizeof text);
   CHECK (strstr (text, "#ff0010") && strstr (text, "(12, 34)") && strstr (text, "the background"));
-  celd_problem_text (&overruled, NULL, NULL, text, sizeof text); /* without names it still says where */
+  celd_problem_text (&overruled, NULL, NULL, NULL, text, sizeof text); /* without names it still says where */
   CHECK (!strchr (text, '#') && strstr (text, "(12, 34)"));
-  celd_problem_text (&outside, &palette, &relations, text, sizeof text);
+  celd_problem_text (&outside, &palette, &relations, NULL, text, sizeof text);
   CHECK (strstr (text, "line 3, column 9"));
-  celd_problem_text (&unsure, &palette, &relations, text, sizeof text);
+  celd_problem_text (&unsure, &palette, &relations, NULL, text, sizeof text);
   CHECK (strstr (text, "the region #ff0010 goes on") && strstr (text, "(56, 78)") &&
          strstr (text, "on a layer named Hidden"));
   CHECK (!strstr (text, "--") && !strstr (text, "aux")); /* hosts have no options, and artists see no names of pads */
-  celd_problem_text (&outside, &palette, &relations, small, sizeof small);
+  celd_problem_text (&outside, &palette, &relations, NULL, small, sizeof small);
   CHECK (strlen (small) == sizeof small - 1); /* cut, and ended */
   relation.source = CELD_SOURCE_ARROW;
   relation.nearer.x = 5;
-  celd_problem_text (&outside, &palette, &relations, text, sizeof text);
+  celd_problem_text (&outside, &palette, &relations, NULL, text, sizeof text);
   CHECK (strstr (text, "The arrow from (5, 0)"));
+}
+
+/* What a gettext of two texts would give; others stay. */
+static const char *
+in_german (const char *text)
+{
+  if (!strcmp (text, "of the background"))
+    return "des Hintergrunds";
+  return strstr (text, "both ends in the region") ? "In der Fläche%2$s hat beide Enden: %1$s" : text;
+}
+
+static void
+sentences_are_translated_before_they_are_filled_in (void)
+{
+  CeldRegion    region[2] = { { .colour = { 255, 0, 16, 255 } }, { .colour = { 0 } } };
+  CeldPalette   palette = { region, 2 };
+  CeldRelation  relation = { .source = CELD_SOURCE_TEXT, .line = 3, .column = 9 };
+  CeldRelations relations = { &relation, 1 };
+  CeldProblem   same = { CELD_PROBLEM_SAME_REGION, -1, -1, 2, 0, 0 };
+  char          text[400];
+
+  celd_problem_text (&same, &palette, &relations, NULL, text, sizeof text);
+  CHECK (strstr (text, "both ends in the region of the background, so"));
+  celd_problem_text (&same, &palette, &relations, in_german, text, sizeof text);
+  CHECK (!strcmp (text, "In der Fläche des Hintergrunds hat beide Enden: The relation in line 3, column 9"));
+  same.label = 1;
+  celd_problem_text (&same, &palette, &relations, in_german, text, sizeof text);
+  CHECK (strstr (text, "Fläche #ff0010 hat"));
 }
 
 static void
@@ -53,14 +81,14 @@ cycles_name_the_other_relations (void)
   CeldCycle     cycle = { .item = item, .n = 3 };
   char          text[300], small[40];
 
-  celd_cycle_text (&cycle, &relations, text, sizeof text);
+  celd_cycle_text (&cycle, &relations, NULL, text, sizeof text);
   CHECK (strstr (text, "line 1, column 1, the arrow from (0, 0) to (0, 7)."));
   CHECK (!strstr (text, "relation 8")); /* it is the one that the sentence before is about */
-  celd_cycle_text (&cycle, &relations, small, sizeof small);
+  celd_cycle_text (&cycle, &relations, NULL, small, sizeof small);
   CHECK (strlen (small) == sizeof small - 1);
   cycle.label = 2;
   cycle.x[0]  = 17;
-  celd_cycle_text (&cycle, &relations, text, sizeof text);
+  celd_cycle_text (&cycle, &relations, NULL, text, sizeof text);
   CHECK (strstr (text, "#000000") && strstr (text, "(17, 0)") && strstr (text, "Same colour: Separate depths"));
 }
 
@@ -87,6 +115,7 @@ main (void)
 {
   RUN (every_status_has_a_text);
   RUN (problems_say_what_and_where);
+  RUN (sentences_are_translated_before_they_are_filled_in);
   RUN (cycles_name_the_other_relations);
   RUN (labels_are_named_by_colours);
   return DONE;

@@ -316,7 +316,8 @@ splits_are_told (void)
          CELD_AT (&labels, problems->item[0].x, problems->item[0].y) == 5);
   CHECK (problems->n && problems->item[0].label != 5);
   if (problems->n)
-    celd_problem_text (&problems->item[0], celd_session_palette (s), celd_session_relations (s), text, sizeof text);
+    celd_problem_text (&problems->item[0], celd_session_palette (s), celd_session_relations (s), NULL, text,
+                       sizeof text);
   CHECK (strstr (text, "split"));
   CHECK (celd_session_remove_relation (s, 3) == CELD_OK);
   CHECK (celd_session_labels (s, NULL, &labels, NULL) == CELD_OK && celd_session_problems (s)->n == 0);

@@ -292,7 +292,8 @@ contradictions_are_reported (void)
   problems = celd_session_problems (s);
   CHECK (problems->n == 1 && problems->item[0].kind == CELD_PROBLEM_CONTRADICTION && problems->item[0].relation == 1);
   CHECK (celd_session_exact_report (s)->n_cycles == 1);
-  celd_problem_text (&problems->item[0], celd_session_exact_palette (s), celd_session_relations (s), text, sizeof text);
+  celd_problem_text (&problems->item[0], celd_session_exact_palette (s), celd_session_relations (s), NULL, text,
+                     sizeof text);
   CHECK (strstr (text, "contradicts"));
   celd_session_free (s);
 }

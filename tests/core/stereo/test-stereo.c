@@ -75,16 +75,16 @@ comfort_is_put_in_words (void)
 
   settings.disparity    = 0.1f;
   settings.screen_width = 2000;
-  celd_comfort_text (&(CeldComfort) { .front = 0.02 }, &settings, text, sizeof text);
+  celd_comfort_text (&(CeldComfort) { .front = 0.02 }, &settings, NULL, text, sizeof text);
   CHECK (!text[0]);
-  celd_comfort_text (&all, &settings, text, sizeof text);
+  celd_comfort_text (&all, &settings, NULL, text, sizeof text);
   CHECK (strstr (text, "10.0 %") && strstr (text, "disparity of 0.033"));
   CHECK (strstr (text, "2000 mm") && strstr (text, "80 mm apart") && strstr (text, "disparity of 0.081"));
   CHECK (strstr (text, "left and the right") && text[strlen (text) - 1] == '.');
   settings.floating_window = true;
-  celd_comfort_text (&all, &settings, text, sizeof text);
+  celd_comfort_text (&all, &settings, NULL, text, sizeof text);
   CHECK (!strstr (text, "frame"));
-  celd_comfort_text (&all, &settings, little, sizeof little);
+  celd_comfort_text (&all, &settings, NULL, little, sizeof little);
   CHECK (strlen (little) == sizeof little - 1);
 }
 

@@ -4,7 +4,7 @@
 import gi
 gi.require_version('Gimp', '3.0')
 from gi.repository import Gimp  # noqa: E402
-from people import check, compare, open_people, pop_up, results  # noqa: E402
+from people import by_name, check, compare, open_people, pop_up, results  # noqa: E402
 
 label = Gimp.get_pdb().lookup_procedure('plug-in-celdepth-popup').get_menu_label()
 check(label == '_Pop-up …', f'in German the entry of the menu is {label}')
@@ -14,3 +14,11 @@ if good:
     names = {name: layer.get_name() for name, layer in results(group).items()}
     check(names == {'lit': 'Beleuchtete Zeichnung', 'depth': 'Tiefe'}, f'in German the results are {names}')
     compare(group, 16, 'in German')
+image = open_people(8, ('Zeichnung', 'Kritzeleien', 'Pfeile'))
+good, group, message = pop_up(image, ['depth'], relations='12,20 > dort')
+check(not good and 'Die Beziehungen sind nicht lesbar: Zeile 1, Spalte 9' in message and 'ein Punkt »x,y«' in message,
+      f'in German relations that cannot be read are refused: {message}')
+by_name(image, 'Pfeile').set_offsets(image.get_width() + 10, 0)
+good, group, message = pop_up(image, ['depth'])
+check(not good and 'Die Ebene mit »Pfeile« liegt außerhalb des Bildes' in message,
+      f'in German a layer outside the image is refused: {message}')

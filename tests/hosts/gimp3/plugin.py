@@ -49,7 +49,7 @@ def a_second_run_updates_in_place():
     offsets = arrows.get_offsets()
     arrows.set_offsets(offsets.offset_x + image.get_width(), offsets.offset_y)
     good, _, message = pop_up(image)
-    check(not good and 'arrows lies outside the image' in message, f'a layer outside the image is refused: {message}')
+    check(not good and "'Arrows' lies outside the image" in message, f'a layer outside the image is refused: {message}')
     arrows.set_offsets(offsets.offset_x, offsets.offset_y)
     _, group, _ = pop_up(image, ['depth', 'levels', 'normals'], relations='10,10 > 20,20')
     first = results(group)
