@@ -5,6 +5,7 @@
 #include "pages.h"
 #include "sequence.h"
 
+#include <glib/gi18n.h>
 #include <locale.h>
 #ifdef __GLIBC__
 #include <malloc.h>
@@ -69,6 +70,7 @@ run_command (const CliCommand *command, int argc, char **argv)
   if (cli_pages_asked (command, argc, argv))
     return cli_pages_run (command, argc, argv);
   code = cli_options_parse (command, argc, argv, &options);
+  setlocale (LC_MESSAGES, ""); /* What is wrong with options is said in English, as help is. */
   if (code == CLI_DONE && !options.help)
     code = options.clip ? cli_clip_run (command, &options) : command->run (&options);
   if ((code == CLI_DONE || code == CLI_CONTRADICTED) && !cli_streams_write (&options.streams))
@@ -87,8 +89,11 @@ main (int argc, char **argv)
    * up to 50 bytes per pixel more (measured). */
   mallopt (M_MMAP_THRESHOLD, 1 << 20);
 #endif
-  /* The locale is for file names only; numbers have a decimal point in any locale. */
+  /* The locale is for file names and messages only; numbers have a decimal point in any locale. */
   setlocale (LC_CTYPE, "");
+  bindtextdomain ("celdepth", CELD_LOCALE_FOLDER);
+  bind_textdomain_codeset ("celdepth", "UTF-8");
+  textdomain ("celdepth");
   if (!strcmp (word, "help") && argc > 2)
     {
       char *help[] = { argv[2], "--help", NULL };

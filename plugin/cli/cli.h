@@ -116,6 +116,8 @@ void cli_say_keep (void);
 void cli_say_kept (bool show);
 /* Leaves a folder out of the names in messages; NULL: none.  Borrows the name. */
 void cli_say_without (const char *folder);
+/* A text of core in the language of the locale, a CeldTranslate: what is said about drawings. */
+const char *cli_in_language (const char *text);
 /* Whether a status is CELD_OK; if not, prints its text. */
 bool cli_check (CeldStatus status);
 /* Prints the first problems that are no contradictions. */

@@ -5,6 +5,7 @@
  */
 #include "cli.h"
 
+#include <glib/gi18n.h>
 #include <math.h>
 #include <string.h>
 
@@ -76,8 +77,8 @@ cli_check_not_exchanged (const CliOptions *options, CliLayers *layers)
   g_free (picture.data);
   g_free (paint.data);
   return good && (!exchanged ||
-                  cli_error ("\"%s\" looks like scribbles and \"%s\" like a drawing: exchange them, or scribble in clear "
-                             "colours.", options->input, options->scribbles));
+                  cli_error (_ ("\"%s\" looks like scribbles and \"%s\" like a drawing: exchange them, or scribble in "
+                                "clear colours."), options->input, options->scribbles));
 }
 
 /* ------------------------------------------------------------------ no lines */
@@ -86,7 +87,8 @@ bool
 cli_check_lines (const char *path, const CeldPlane *ink)
 {
   return celd_ink_has_lines (ink) ||
-         cli_error ("\"%s\" has no lines: it is blank, or its lines are too faint (--ink says what they are).", path);
+         cli_error (_ ("\"%s\" has no lines: it is blank, or its lines are too faint (--ink says what they are)."),
+                    path);
 }
 
 /* ------------------------------------------------------------------ levels */

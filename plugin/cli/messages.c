@@ -4,6 +4,7 @@
  */
 #include "cli.h"
 
+#include <glib/gi18n.h>
 #include <stdarg.h>
 #include <stdio.h>
 
@@ -80,10 +81,16 @@ cli_error (const char *format, ...)
   return false;
 }
 
+const char *
+cli_in_language (const char *text)
+{
+  return _ (text);
+}
+
 bool
 cli_check (CeldStatus status)
 {
-  return status == CELD_OK || cli_error ("%s", celd_status_text (status));
+  return status == CELD_OK || cli_error ("%s", _ (celd_status_text (status)));
 }
 
 static void
@@ -93,7 +100,7 @@ say_cycles (const CliOptions *options, const CeldOrder *order, const CeldRelatio
     {
       const CeldCycle *cycle = &order->cycle[i];
 
-      cli_say ("These relations contradict each other; the first of them was left out:");
+      cli_say ("%s", _ ("These relations contradict each other; the first of them was left out:"));
       for (size_t k = 0; k < cycle->n; k++)
         {
           const CeldRelation *relation = &relations->item[cycle->item[k]];
@@ -103,18 +110,18 @@ say_cycles (const CliOptions *options, const CeldOrder *order, const CeldRelatio
                                                                           : cli_relations_place (options, &line);
 
           if (relation->source == CELD_SOURCE_ARROW)
-            fprintf (stderr, "    %s  (painted arrow)\n", text);
+            fprintf (stderr, _ ("    %s  (painted arrow)\n"), text);
           else
-            fprintf (stderr, "    %s  (%s, line %d, column %d)\n", text, from, line, relation->column);
+            fprintf (stderr, _ ("    %s  (%s, line %d, column %d)\n"), text, from, line, relation->column);
           g_free (text);
         }
       if (cycle->label)
-        fprintf (stderr, "    The reason is that #%02x%02x%02x has one depth at (%d, %d) and at (%d, %d); "
-                 "--same-colour separate lets them differ.\n", cycle->colour[0], cycle->colour[1], cycle->colour[2],
-                 cycle->x[0], cycle->y[0], cycle->x[1], cycle->y[1]);
+        fprintf (stderr, _ ("    The reason is that #%02x%02x%02x has one depth at (%d, %d) and at (%d, %d); "
+                            "--same-colour separate lets them differ.\n"),
+                 cycle->colour[0], cycle->colour[1], cycle->colour[2], cycle->x[0], cycle->y[0], cycle->x[1], cycle->y[1]);
       if (order->scc[cycle->scc].n > cycle->n)
-        fprintf (stderr, "    Other cycles share regions with this one: %" G_GSIZE_FORMAT " relations in all.\n",
-                 order->scc[cycle->scc].n);
+        fprintf (stderr, _ ("    Other cycles share regions with this one: %u relations in all.\n"),
+                 (unsigned) order->scc[cycle->scc].n);
     }
 }
 
@@ -126,13 +133,18 @@ cli_say_problems (const CeldProblems *problems, const CeldPalette *palette, cons
   for (size_t i = 0; problems && i < problems->n; i++)
     if (problems->item[i].kind != CELD_PROBLEM_CONTRADICTION && n++ < MOST_PROBLEMS)
       {
-        char text[400];
+        char text[800];
 
-        celd_problem_text (&problems->item[i], palette, relations, NULL, text, sizeof text);
-        cli_say ("%s%s", text, problems->item[i].kind == CELD_PROBLEM_HIDDEN_UNSURE ? " Give it by --hidden." : "");
+        celd_problem_text (&problems->item[i], palette, relations, cli_in_language, text, sizeof text);
+        cli_say ("%s%s", text, problems->item[i].kind == CELD_PROBLEM_HIDDEN_UNSURE ? _ (" Give it by --hidden.") : "");
       }
   if (n > MOST_PROBLEMS)
-    cli_say ("There are %" G_GSIZE_FORMAT " more messages; --report writes all of them.", n - MOST_PROBLEMS);
+    {
+      unsigned more = (unsigned) n - MOST_PROBLEMS;
+
+      cli_say (ngettext ("There is %u more message; --report writes all of them.",
+                         "There are %u more messages; --report writes all of them.", more), more);
+    }
 }
 
 int

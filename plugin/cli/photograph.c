@@ -4,6 +4,8 @@
  */
 #include "cli.h"
 
+#include <glib/gi18n.h>
+
 /* Blank pages are refused elsewhere, with another reason. */
 bool
 cli_check_drawing (const char *path, const CeldDrawing *drawing, bool quiet)
@@ -13,10 +15,10 @@ cli_check_drawing (const char *path, const CeldDrawing *drawing, bool quiet)
   if (!cli_check (celd_line_clarity (drawing, NULL, &clarity)))
     return false;
   if (clarity < CELD_LEAST_CLARITY)
-    return cli_error ("\"%s\" looks like a photograph or a painting without lines; if it is a drawing, say what its "
-                      "lines are, such as --ink dark.", path);
+    return cli_error (_ ("\"%s\" looks like a photograph or a painting without lines; if it is a drawing, say what its "
+                         "lines are, such as --ink dark."), path);
   if (clarity < CELD_CLEAR_LINES && !quiet)
-    cli_say ("\"%s\" hardly has clear lines: if it is no drawing, the result makes no sense.", path);
+    cli_say (_ ("\"%s\" hardly has clear lines: if it is no drawing, the result makes no sense."), path);
   return true;
 }
 
@@ -24,5 +26,6 @@ bool
 cli_check_scribbles (const char *path, const CeldPaint *scribbles)
 {
   return celd_are_scribbles (scribbles) ||
-         cli_error ("\"%s\" looks like a photograph: scribbles are strokes in flat colours on a blank layer.", path);
+         cli_error (_ ("\"%s\" looks like a photograph: scribbles are strokes in flat colours on a blank layer."),
+                    path);
 }

@@ -147,11 +147,11 @@ static void
 say_comfort (const CliScene *s)
 {
   CeldComfort comfort;
-  char        text[800];
+  char        text[1200];
 
   if (celd_stereo_comfort (&s->depth, s->settings, &comfort) != CELD_OK)
     return;
-  celd_comfort_text (&comfort, s->settings, NULL, text, sizeof text);
+  celd_comfort_text (&comfort, s->settings, cli_in_language, text, sizeof text);
   for (char *line = strtok (text, "\n"); line; line = strtok (NULL, "\n"))
     cli_say ("%s", line);
 }

@@ -6,9 +6,9 @@ import os
 import re
 from typing import List
 
-from PyQt5.QtCore import QObject, QProcess, QStandardPaths, QTimer, pyqtSignal
+from PyQt5.QtCore import QObject, QProcess, QProcessEnvironment, QStandardPaths, QTimer, pyqtSignal
 
-from .language import _
+from .language import _, languages
 
 BAR = re.compile(r'([\w-]+) +\[.*\] +(\d+) %')
 KILL_AFTER = 3000  # milliseconds that a cancelled run has to end
@@ -23,6 +23,13 @@ def find(command: str) -> str:
         raise FileNotFoundError(_('The program "{program}" is not found. Install celdepth, or name the program under '
                                   '"Program" at the end of this panel.').format(program=wanted))
     return path
+
+
+def environment() -> QProcessEnvironment:
+    """That of Krita, whose language may be another one than that of the system."""
+    own = QProcessEnvironment.systemEnvironment()
+    own.insert('LANGUAGE', ':'.join(languages()) or 'en')
+    return own
 
 
 class Output:
@@ -55,6 +62,7 @@ class Command(QObject):
         super().__init__(parent)
         self.output, self.cancelled = Output(), False
         self.process = QProcess(self)
+        self.process.setProcessEnvironment(environment())
         self.process.readyReadStandardError.connect(self.read)
         self.process.errorOccurred.connect(self.fail)
         self.process.finished.connect(self.finish)

@@ -285,6 +285,9 @@ def check_german():
     check(names == ['Beleuchtete Zeichnung', 'Tiefe'], f'results in German: {names}')
     good, text, _ = run(document, choose())
     check(not good and text.startswith('Es ist nichts gewählt'), f'refused in German: {text}')
+    paint(by_name(document, 'Zeichnung'), np.ones((document.height(), document.width(), 4)))
+    good, text, _ = run(document, choose('depth'))
+    check(not good and text.startswith('celdepth: »drawing.png« hat keine Linien'), f'the command in German: {text}')
     document.close()
 
 
