@@ -84,6 +84,20 @@ lossy_step (const CeldHost *host, Results *r)
   return celd_scribbles_read (&scribbles, &scene_settings, host, &seeds, &r->palette);
 }
 
+/* The same strokes, faint ones. */
+static CeldStatus
+faint_step (const CeldHost *host, Results *r)
+{
+  Pixels     faint = scribble_pixels;
+  CeldPaint  scribbles = paint_of (&faint);
+  CeldLabels seeds = labels_of (r->pixels);
+
+  for (int y = 0; y < scribbles.height; y++)
+    for (int x = 0; x < scribbles.width; x++)
+      CELD_RGBA (&scribbles, x, y)[3] /= 3;
+  return celd_scribbles_read (&scribbles, &scene_settings, host, &seeds, &r->palette);
+}
+
 static CeldStatus
 relations_step (const CeldHost *host, Results *r)
 {
@@ -339,6 +353,7 @@ const Step region_steps[] = {
   { "contours", contours_step, NULL, true },
   { "scribbles", scribbles_step, NULL, true },
   { "lossy scribbles", lossy_step, NULL, true },
+  { "faint scribbles", faint_step, NULL, true },
   { "relations", relations_step, NULL, false },
   { "arrow-path", path_step, NULL, false },
   { "arrows", arrows_step, NULL, true },

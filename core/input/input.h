@@ -1,10 +1,11 @@
 /* Reading what the artist paints: scribbles, virtual contours, arrows.
  *
+ *   scribble-opacity.c   which pixels are opaque enough to be paint
  *   scribble-colours.c   counts the colours of a layer, and cleans them where it was stored with loss
  *   scribble-loss.c      finds thin strokes whose chroma a codec has smeared
  *   scribble-unmix.c     what colours these strokes had
  *   scribble-clusters.c  which colours are labels
- *   scribble-overlaps.c  which are only the overlap of two translucent strokes
+ *   scribble-overlaps.c  which are only mixtures of two strokes that cross
  *   scribble-places.c    which pixels each label has
  *   scribbles.c          all steps of reading scribbles: fringes, and the palette
  *   contours.c           virtual contours painted into a drawing
@@ -58,6 +59,7 @@ typedef struct
   uint32_t pixels, solid, interior;
   uint64_t opacity;
   bool     apart;                       /* in pixel art: no pixel of another cluster touches its pixels */
+  bool     is_ridge;                    /* solid pixels are a third, before sides and rims are merged with it */
   bool     is_label;
 } CeldScribbleCluster;
 
@@ -92,6 +94,10 @@ celd_colour_distance (const int *a, const int *b)
   return d0 * d0 + d1 * d1 + d2 * d2;
 }
 
+/* scribble-opacity.c: sets kind to 1 where the layer is opaque enough to be paint, else to 0; label is used as work
+ * space. */
+CeldStatus celd_scribble_paint (CeldScribbleLayer *r);
+
 /* scribble-colours.c: fills in id, colour, paper, radius and lossy; label and kind are used as work space. */
 CeldStatus celd_scribble_colours (CeldScribbleLayer *r, bool flats, const CeldHost *host);
 
@@ -108,7 +114,7 @@ CeldStatus celd_scribble_clusters (CeldScribbleLayer *r, const CeldHost *host);
 /* gradients.c: makes each gradient of a flat colouring one colour; needs the colours, and overwrites label and kind. */
 CeldStatus celd_scribble_gradients (CeldScribbleLayer *r);
 
-/* scribble-overlaps.c: clusters that occur only where two translucent strokes overlap are labels no longer. */
+/* scribble-overlaps.c: clusters that are mostly mixtures of two strokes that cross or touch are labels no longer. */
 CeldStatus celd_scribble_overlaps (CeldScribbleLayer *r);
 
 /* scribble-clusters.c: appends a cluster of one colour. */

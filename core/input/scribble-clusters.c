@@ -263,7 +263,7 @@ is_label (const CeldScribbleLayer *r, const CeldScribbleCluster *k)
     return true;
   if (k->solid < CELD_LEAST_DOT || (r->lossy && !has_interior (k)))
     return false;
-  return 3 * (size_t) k->solid >= k->pixels ||
+  return k->is_ridge || 3 * (size_t) k->solid >= k->pixels ||
          (2 * (size_t) k->interior >= k->solid && has_interior (k) && !is_tint (r, k));
 }
 
@@ -301,6 +301,8 @@ celd_scribble_clusters (CeldScribbleLayer *r, const CeldHost *host)
     tally_clusters (r);
   if (status == CELD_OK && r->n_clusters <= MANY_CLUSTERS)
     {
+      for (size_t k = 1; k < r->n_clusters && !r->lossy; k++)
+        r->cluster[k].is_ridge = 3 * (size_t) r->cluster[k].solid >= r->cluster[k].pixels;
       if (r->paper && !r->lossy)
         status = merge_parts (r, may_be_side);
       tally_clusters (r);

@@ -16,6 +16,7 @@
 
 /* Distances of colours, in steps of 1/255; all chosen. */
 #define CLEAN_RADIUS  3         /* colours are equal in a picture without loss: rounding of premultiplied colours */
+#define SOFT_RADIUS   5         /* clean soft strokes on paper have no more; measured: 4, and 5 or more from JPEGs */
 #define LOSSY_RADIUS  14        /* colours are equal in a filtered picture */
 #define MOST_NOISE    20        /* larger noise counts as this */
 #define SIMILAR       36        /* of one colour in a lossy picture, at most */
@@ -83,8 +84,11 @@ colour_index (CeldScribbleLayer *r, const uint8_t *rgba)
 static CeldStatus
 count_colours (CeldScribbleLayer *r, bool flats, const CeldHost *host)
 {
-  bool opaque = true, hard = true;
+  bool       opaque = true, hard = true;
+  CeldStatus status = celd_scribble_paint (r);
 
+  if (status != CELD_OK)
+    return status;
   for (int y = 0; y < r->height; y++)
     {
       const uint8_t *p = CELD_RGBA (r->paint, 0, y);
@@ -96,7 +100,7 @@ count_colours (CeldScribbleLayer *r, bool flats, const CeldHost *host)
         {
           opaque = opaque && p[3] == 255;
           hard = hard && (!p[3] || p[3] == 255);
-          if (p[3] < 128)
+          if (!r->kind[(size_t) y * (size_t) r->width + (size_t) x])
             id[x] = 0;
           else if (x && id[x - 1] && !memcmp (p, p - 4, 3))
             id[x] = id[x - 1];
@@ -317,5 +321,7 @@ celd_scribble_colours (CeldScribbleLayer *r, bool flats, const CeldHost *host)
     return status;
   measure_noise (r);
   smeared = r->radius >= 2 * CLEAN_RADIUS && celd_scribble_smeared (r);
-  return smeared || r->radius > 2 * CLEAN_RADIUS ? clean (r, smeared, flats, &rest) : CELD_OK;
+  if (!smeared && r->radius <= (r->paper ? SOFT_RADIUS : 2 * CLEAN_RADIUS))
+    return CELD_OK;
+  return clean (r, smeared, flats, &rest);
 }

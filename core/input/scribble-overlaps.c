@@ -1,64 +1,42 @@
-/* Labels of a painted layer that are only the overlap of two translucent strokes.
+/* Labels of a painted layer that are only mixtures of two strokes, where these cross or touch.
  *
- * Their mixture is a flat colour, but no label.  On a transparent layer it lies between the two colours and is more
- * opaque than either.  On opaque paper P a stroke of opacity a shows
- * A' = P + a (A - P); painted over B' it shows a A + (1 - a) B' = A' + (1 - a) (B' - P).  A colour like this that
- * touches both strokes, and them more than anything else, is taken for their mixture.
+ * On opaque paper P a stroke of opacity a shows A = P + a (A0 - P); painted over B it shows A + (1 - a) (B - P).  So
+ * the deficits of mixtures, colours less that of paper, are those of both strokes times factors up to 1.  On a
+ * transparent layer a mixture lies between both colours.  Where the mixture is flat, both strokes are translucent, and
+ * it is stronger than either: the factors add up to more than 1, or it is more opaque.  Soft brushes also leave all
+ * steps from one stroke to the other and to paper; none of these is flat.
  *
- * Cost: O(pixels + labels^2).
+ * A pixel is taken for a mixture if two strokes that it may be mixed of are seen from it, across its own colour no
+ * farther than this is wide there, and a few pixels of other paint beyond.
+ *
+ * Cost: O(pixels), and rays in eight directions from some hundred pixels of each label.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "base/base.h"
 #include "input/input.h"
 
-#define OVERLAP_DISTANCE 3    /* pixels, across which strokes touch in spite of an antialiased rim; chosen */
-#define OVERLAP_ERROR    6    /* of 255, from the colour of an overlap to the expected one, at most; chosen */
-#define MANY_LABELS      1024 /* overlaps of more labels are not looked for; chosen */
+#include <math.h>
 
-/* The label at a pixel, counted from 1; 0 for anything else. */
+#define SEARCHED      16   /* pixels of other paint beyond its own colour that are searched for strokes; chosen */
+#define MIXING_ERROR  6    /* of 255, from the colour of a mixture to the expected one, at most; chosen */
+#define ONE_STEP      3    /* squared distance of flat colours, at most: one step in each channel */
+#define SMALLEST_PART 0.04 /* of a stroke in a mixture; chosen */
+#define MOST_SEEN     12   /* labels seen from a pixel; more are not looked at */
+#define BROADEST      64   /* pixels, of mixtures that are looked for; chosen */
+#define LOOKED_AT     512  /* pixels of a label that are looked at, nearly; chosen */
+#define MIXED_SHARE   0.6  /* of these, at least, are mixtures if the label is none; chosen */
+
+/* Pixels of a cluster that are no fringe, how many of these were looked at, and how many of those are mixtures. */
+typedef struct { uint32_t solid, seen, mixed; } MixtureSample;
+
+/* The cluster at a pixel; 0 for transparent, paper and colours without a cluster. */
 static uint32_t
-label_at (const CeldScribbleLayer *r, const uint32_t *number, size_t i)
+cluster_at (const CeldScribbleLayer *r, size_t i)
 {
   uint32_t k = r->colour[r->id[i]].cluster;
 
-  return k == CELD_NO_CLUSTER ? 0 : number[k];
-}
-
-/* touch[a * n + b]: how often labels a and b face each other across OVERLAP_DISTANCE pixels. */
-static void
-count_touches (const CeldScribbleLayer *r, const uint32_t *number, uint32_t *touch, size_t n)
-{
-  for (int y = 0; y < r->height; y++)
-    for (int x = 0; x < r->width; x++)
-      for (int i = 0; i < 2; i++)
-        if (x + (i ? 0 : OVERLAP_DISTANCE) < r->width && y + (i ? OVERLAP_DISTANCE : 0) < r->height)
-          {
-            size_t   p = (size_t) y * (size_t) r->width + (size_t) x;
-            size_t   q = p + (i ? OVERLAP_DISTANCE * (size_t) r->width : OVERLAP_DISTANCE);
-            uint32_t a = label_at (r, number, p), b = label_at (r, number, q);
-
-            touch[a * n + b] += a != b;
-            touch[b * n + a] += a != b;
-          }
-}
-
-/* Is  c = from + s (to - origin)  for some s in (0.04,0.96)? */
-static bool
-is_mixture (const int *c, const int *from, const int *to, const int *origin)
-{
-  double along = 0, length = 0, share;
-  int    wanted[3];
-
-  for (int i = 0; i < 3; i++)
-    {
-      along += (c[i] - from[i]) * (to[i] - origin[i]);
-      length += (to[i] - origin[i]) * (to[i] - origin[i]);
-    }
-  share = length > 0 ? along / length : 0;
-  for (int i = 0; i < 3; i++)
-    wanted[i] = (int) (from[i] + share * (to[i] - origin[i]) + 0.5);
-  return share > 0.04 && share < 0.96 && celd_colour_distance (c, wanted) <= OVERLAP_ERROR * OVERLAP_ERROR;
+  return k == CELD_NO_CLUSTER ? 0 : k;
 }
 
 static double
@@ -67,79 +45,194 @@ mean_opacity (const CeldScribbleCluster *c)
   return (double) c->opacity / c->pixels;
 }
 
-/* Is c the mixture of a over b, or of b over a? */
+/* On paper: is the deficit of c that of a and b times factors up to 1, and if it is flat, of a sum above 1? */
 static bool
-is_overlap (const CeldScribbleLayer *r, const CeldScribbleCluster *c, const CeldScribbleCluster *a,
-            const CeldScribbleCluster *b)
+is_mixed_on_paper (const int *paper, const int *c, const int *a, const int *b, bool flat)
 {
-  const int *paper = r->colour[r->paper].channel;
+  double aa = 0, ab = 0, bb = 0, ac = 0, bc = 0, error2 = 0, s, t, determinant;
 
-  if (r->paper)
-    return is_mixture (c->channel, a->channel, b->channel, paper) ||
-           is_mixture (c->channel, b->channel, a->channel, paper);
-  return mean_opacity (a) < 250 && mean_opacity (c) > mean_opacity (a) + 4 && mean_opacity (c) > mean_opacity (b) + 4 &&
-         is_mixture (c->channel, a->channel, b->channel, a->channel);
+  for (int i = 0; i < 3; i++)
+    {
+      double u = a[i] - paper[i], v = b[i] - paper[i], w = c[i] - paper[i];
+
+      aa += u * u;
+      ab += u * v;
+      bb += v * v;
+      ac += u * w;
+      bc += v * w;
+    }
+  determinant = aa * bb - ab * ab;
+  if (determinant <= 0.01 * aa * bb)
+    return false;
+  s = (ac * bb - bc * ab) / determinant;
+  t = (bc * aa - ac * ab) / determinant;
+  if (s < SMALLEST_PART || t < SMALLEST_PART || s > 1 + SMALLEST_PART || t > 1 + SMALLEST_PART ||
+      (flat && s + t < 1 + SMALLEST_PART))
+    return false;
+  for (int i = 0; i < 3; i++)
+    {
+      double e = c[i] - paper[i] - s * (a[i] - paper[i]) - t * (b[i] - paper[i]);
+
+      error2 += e * e;
+    }
+  return error2 <= MIXING_ERROR * MIXING_ERROR;
 }
 
-/* The two labels that label k touches most, if it touches them more than all else together; else 0. */
-static void
-find_partners (const uint32_t *touch, size_t n, size_t k, size_t *first, size_t *second)
+/* On a transparent layer: does c lie between a and b? */
+static bool
+is_between (const int *c, const int *a, const int *b)
 {
-  size_t all = touch[k * n];
+  double along = 0, length2 = celd_colour_distance (a, b), share;
 
-  *first = *second = 0;
-  for (size_t j = 1; j < n; j++)
+  for (int i = 0; i < 3; i++)
+    along += (c[i] - a[i]) * (b[i] - a[i]);
+  share = length2 > 0 ? along / length2 : 0;
+  return share > SMALLEST_PART && share < 1 - SMALLEST_PART &&
+         celd_colour_distance (c, a) - along * share <= MIXING_ERROR * MIXING_ERROR;
+}
+
+/* May colour `id`, of cluster k, be mixed of the clusters a and b? */
+static bool
+is_mixture (const CeldScribbleLayer *r, uint32_t id, uint32_t k, uint32_t a, uint32_t b, bool flat)
+{
+  const CeldScribbleCluster *of = &r->cluster[a], *and = &r->cluster[b];
+  const int                 *c = r->colour[id].channel;
+
+  if (r->paper)
+    return is_mixed_on_paper (r->colour[r->paper].channel, c, of->channel, and->channel, flat);
+  return is_between (c, of->channel, and->channel) &&
+         (!flat || mean_opacity (&r->cluster[k]) > fmax (mean_opacity (of), mean_opacity (and)) + 4);
+}
+
+/* Opposite directions are neighbours in the list. */
+static const int direction[8][2] = { { 1, 0 }, { -1, 0 }, { 0, 1 }, { 0, -1 }, { 1, 1 }, { -1, -1 }, { 1, -1 },
+                                     { -1, 1 } };
+
+/* The pixel `steps` away in a direction; SIZE_MAX outside the layer. */
+static size_t
+pixel_at (const CeldScribbleLayer *r, int x, int y, int d, int steps)
+{
+  x += steps * direction[d][0];
+  y += steps * direction[d][1];
+  return x < 0 || y < 0 || x >= r->width || y >= r->height ? SIZE_MAX : (size_t) y * (size_t) r->width + (size_t) x;
+}
+
+/* How many pixels of cluster k are beside (x,y) in a direction, `most` at most. */
+static int
+reach (const CeldScribbleLayer *r, int x, int y, uint32_t k, int d, int most)
+{
+  int    n = 0;
+  size_t at;
+
+  while (n < most && (at = pixel_at (r, x, y, d, n + 1)) != SIZE_MAX && cluster_at (r, at) == k)
+    n++;
+  return n;
+}
+
+/* Adds the labels but `of` that are seen in a direction, beyond `own` pixels of that, up to the end of the paint. */
+static size_t
+look (const CeldScribbleLayer *r, int x, int y, int d, int own, uint32_t of, uint32_t *seen, size_t n)
+{
+  for (int i = own + 1; i <= own + SEARCHED; i++)
     {
-      all += touch[k * n + j];
-      if (touch[k * n + j] >= CELD_LEAST_DOT && (!*first || touch[k * n + j] > touch[k * n + *first]))
-        {
-          *second = *first;
-          *first = j;
-        }
-      else if (touch[k * n + j] >= CELD_LEAST_DOT && (!*second || touch[k * n + j] > touch[k * n + *second]))
-        *second = j;
+      size_t   at = pixel_at (r, x, y, d, i), j = 0;
+      uint32_t k;
+
+      if (at == SIZE_MAX || !r->id[at] || !r->colour[r->id[at]].cluster)
+        break;
+      k = cluster_at (r, at);
+      if (k == of || !r->cluster[k].is_label || r->kind[at] == CELD_FRINGE)
+        continue;
+      while (j < n && seen[j] != k)
+        j++;
+      if (j == n && n < MOST_SEEN)
+        seen[n++] = k;
     }
-  if (2 * ((size_t) touch[k * n + *first] + touch[k * n + *second]) <= all)
-    *first = *second = 0;
+  return n;
+}
+
+/* Has the pixel the colour of three neighbours?  Between soft strokes only those along a step have it. */
+static bool
+is_flat (const CeldScribbleLayer *r, int x, int y)
+{
+  const int *c = r->colour[r->id[(size_t) y * (size_t) r->width + (size_t) x]].channel;
+  int        most2 = r->lossy ? r->radius * r->radius / 4 : ONE_STEP, same = 0;
+
+  for (int d = 0; d < 8; d++)
+    {
+      size_t at = pixel_at (r, x, y, d, 1);
+
+      same += at != SIZE_MAX && r->id[at] && celd_colour_distance (r->colour[r->id[at]].channel, c) <= most2;
+    }
+  return same >= 3;
+}
+
+/* Are two strokes seen from the pixel (x,y) of cluster k that it may be mixed of? */
+static bool
+is_mixed (const CeldScribbleLayer *r, int x, int y, uint32_t k)
+{
+  uint32_t seen[MOST_SEEN], id = r->id[(size_t) y * (size_t) r->width + (size_t) x];
+  int      own[8], width = BROADEST;
+  size_t   n = 0;
+  bool     flat;
+
+  for (int d = 0; d < 8; d += 2)
+    {
+      int chord;
+
+      own[d] = reach (r, x, y, k, d, 2 * width + 1);
+      own[d + 1] = reach (r, x, y, k, d + 1, 2 * width + 1);
+      chord = own[d] + own[d + 1] + 1;
+      width = chord < width ? chord : width;
+    }
+  for (int d = 0; d < 8; d++)
+    if (own[d] <= 2 * width)
+      n = look (r, x, y, d, own[d], k, seen, n);
+  if (n < 2)
+    return false;
+  flat = is_flat (r, x, y);
+  for (size_t i = 0; i < n; i++)
+    for (size_t j = i + 1; j < n; j++)
+      if (is_mixture (r, id, k, seen[i], seen[j], flat))
+        return true;
+  return false;
+}
+
+static size_t
+count_labels (const CeldScribbleLayer *r)
+{
+  size_t n = 0;
+
+  for (size_t k = 1; k < r->n_clusters; k++)
+    n += r->cluster[k].is_label;
+  return n;
 }
 
 CeldStatus
 celd_scribble_overlaps (CeldScribbleLayer *r)
 {
-  uint32_t  *number = celd_alloc0 (r->n_clusters, sizeof *number), *touch = NULL;
-  size_t    *cluster = celd_alloc0 (r->n_clusters + 1, sizeof *cluster), n = 1;
-  CeldStatus status = CELD_NO_MEMORY;
+  MixtureSample *of; /* of each cluster */
 
-  if (!number || !cluster)
-    goto done;
-  for (size_t k = 1; k < r->n_clusters; k++)
-    if (r->cluster[k].is_label)
+  if (r->hard || count_labels (r) < 3)
+    return CELD_OK;
+  of = celd_alloc0 (r->n_clusters, sizeof *of);
+  if (!of)
+    return CELD_NO_MEMORY;
+  for (int y = 0; y < r->height; y++)
+    for (int x = 0; x < r->width; x++)
       {
-        cluster[n] = k;
-        number[k] = (uint32_t) n++;
+        size_t   i = (size_t) y * (size_t) r->width + (size_t) x;
+        uint32_t k = r->id[i] ? cluster_at (r, i) : 0;
+
+        if (!k || r->kind[i] == CELD_FRINGE || !r->cluster[k].is_label ||
+            of[k].solid++ % (1 + r->cluster[k].solid / LOOKED_AT))
+          continue;
+        of[k].seen++;
+        of[k].mixed += is_mixed (r, x, y, k);
       }
-  status = CELD_OK;
-  if (n <= 3 || n > MANY_LABELS)
-    goto done;
-  touch = celd_alloc0 (n * n, sizeof *touch);
-  if (!touch)
-    {
-      status = CELD_NO_MEMORY;
-      goto done;
-    }
-  count_touches (r, number, touch, n);
-  for (size_t k = 1; k < n; k++)
-    {
-      size_t a, b;
-
-      find_partners (touch, n, k, &a, &b);
-      if (b && is_overlap (r, &r->cluster[cluster[k]], &r->cluster[cluster[a]], &r->cluster[cluster[b]]))
-        r->cluster[cluster[k]].is_label = false;
-    }
-
-done:
-  celd_free (touch);
-  celd_free (cluster);
-  celd_free (number);
-  return status;
+  for (size_t k = 1; k < r->n_clusters; k++)
+    if (of[k].seen && of[k].mixed >= MIXED_SHARE * of[k].seen)
+      r->cluster[k].is_label = false;
+  celd_free (of);
+  return CELD_OK;
 }

@@ -16,7 +16,8 @@ layer_new (uint8_t red, uint8_t green, uint8_t blue, uint8_t alpha)
 
   l->paint = (CeldPaint) { W, H, W, &l->rgba[0][0][0] };
   l->reading = (CeldScribbleLayer) { .paint = &l->paint, .width = W, .height = H, .pixels = W * H,
-                           .id = calloc (W * H, sizeof (uint32_t)) };
+                           .id = calloc (W * H, sizeof (uint32_t)), .label = calloc (W * H, sizeof (uint32_t)),
+                           .kind = calloc (W * H, 1) };
   for (int i = 0; i < W * H; i++)
     memcpy (l->rgba[i / W][i % W], (uint8_t[4]) { red, green, blue, alpha }, 4);
   return l;
@@ -38,6 +39,8 @@ static void
 layer_free (Layer *l)
 {
   free (l->reading.id);
+  free (l->reading.label);
+  free (l->reading.kind);
   celd_free (l->reading.colour);
   celd_free (l->reading.slot);
   free (l);

@@ -12,6 +12,8 @@ is_label (const char *const *art, int (*rgb)[3], bool on_paper, int opacity)
   CeldScribbleLayer r = reading_new (art, rgb, 4);
   bool              label;
 
+  r.kind = malloc (r.pixels);
+  memset (r.kind, CELD_SOLID, r.pixels);
   r.paper = on_paper ? 4 : 0;
   r.n_clusters = 4;
   r.cluster = calloc (r.n_clusters, sizeof *r.cluster);
@@ -26,6 +28,7 @@ is_label (const char *const *art, int (*rgb)[3], bool on_paper, int opacity)
   CHECK (celd_scribble_overlaps (&r) == CELD_OK);
   CHECK (r.cluster[1].is_label && r.cluster[2].is_label);
   label = r.cluster[3].is_label;
+  free (r.kind);
   reading_clear (&r);
   return label;
 }

@@ -61,6 +61,23 @@ stroke (double ax, double ay, double bx, double by, double radius, double soft, 
       }
 }
 
+/* A stroke of a brush of this opacity, full up to `hardness` of its radius, from there on less and less. */
+static void
+spray (double ax, double ay, double bx, double by, double radius, double hardness, double opacity,
+       const uint8_t colour[3])
+{
+  double u = bx - ax, v = by - ay, length = u * u + v * v;
+
+  for (int y = 0; y < HEIGHT; y++)
+    for (int x = 0; x < WIDTH; x++)
+      {
+        double t = fmin (fmax (((x - ax) * u + (y - ay) * v) / length, 0), 1);
+        double away = hypot (x - ax - t * u, y - ay - t * v) / radius;
+
+        lay (x, y, colour, opacity * fmin (fmax ((1 - away) / fmax (1 - hardness, 1 / radius), 0), 1));
+      }
+}
+
 static void
 block (int left, int top, int width, int height, const uint8_t colour[3])
 {
@@ -211,6 +228,74 @@ translucent_overlaps (void)
     }
 }
 
+/* Which colour has the label at a point? 0, 1, ...; -1: none.  It may be a tint of its own on white. */
+static int
+colour_at (int x, int y, const uint8_t (*colour)[3], int n, double opacity)
+{
+  uint32_t label = seed_of[y * WIDTH + x];
+  int      least = 3 * 256, found = -1;
+
+  for (int k = 0; k < n && label; k++)
+    {
+      const uint8_t *c = palette.item[label - 1].colour;
+      int            distance = 0;
+
+      for (int i = 0; i < 3; i++)
+        distance += abs (c[i] - (int) (255 - opacity * (255 - colour[k][i])));
+      if (distance < least)
+        {
+          least = distance;
+          found = k;
+        }
+    }
+  return found;
+}
+
+/* Three strokes of any brush, two of which cross the first: each is a label on both sides of a crossing, and the
+ * mixtures there are none. */
+static void
+brushes_that_cross (void)
+{
+  static const double  brush[][3] = { { 0.3, 0.5, 8 }, { 0.5, 0, 12 }, { 0.5, 0.5, 10 }, { 0.6, 0.75, 6 },
+                                      { 0.8, 0.3, 8 }, { 1, 0, 10 }, { 1, 0.5, 12 } }; /* opacity, hardness, radius */
+  static const uint8_t colour[3][3] = { { 220, 20, 30 }, { 40, 170, 60 }, { 150, 60, 230 } };
+  static const int     point[][3] = { { 50, 150, 0 }, { 200, 150, 0 }, { 350, 150, 0 }, { 105, 60, 1 }, { 135, 240, 1 },
+                                      { 296, 60, 2 }, { 272, 240, 2 } };
+
+  for (size_t b = 0; b < sizeof brush / sizeof *brush; b++)
+    for (int white = 0; white < 2; white++)
+      {
+        double opacity = brush[b][0], hardness = brush[b][1], radius = brush[b][2];
+
+        clear_paint (white);
+        spray (20, 150, 380, 150, radius, hardness, opacity, colour[0]);
+        spray (95, 30, 145, 270, radius, hardness, opacity, colour[1]);
+        spray (300, 30, 268, 270, radius, hardness, opacity, colour[2]);
+        CHECK (read_size (WIDTH, HEIGHT) == CELD_OK);
+        NEAR (palette.n, 3, 0);
+        for (size_t i = 0; i < sizeof point / sizeof *point; i++)
+          NEAR (colour_at (point[i][0], point[i][1], colour, 3, white ? opacity : 1), point[i][2], 0);
+      }
+}
+
+/* A short flat stroke in the very mixture of two others, which it touches, is a label: mixtures of opaque strokes are
+ * nowhere flat, and those of translucent ones stronger than this. */
+static void
+a_flat_mixture_is_a_label (void)
+{
+  const uint8_t purple[3] = { 115, 45, 130 };
+
+  for (int white = 0; white < 2; white++)
+    {
+      clear_paint (white);
+      block (40, 100, 60, 12, red);
+      block (100, 100, 14, 12, purple);
+      block (114, 100, 60, 12, blue);
+      stroke (300, 60, 340, 240, 6, 2, green);
+      CHECK (read_size (WIDTH, HEIGHT) == CELD_OK && palette.n == 4 && in_palette (purple, 0));
+    }
+}
+
 /* A grey label next to black strokes on white: the rims of black are as grey, but no label. */
 static void
 rims_of_another_label (void)
@@ -355,14 +440,37 @@ narrow_translucent_strokes_on_paper (void)
     }
 }
 
+/* A row of pixels with these three opacities, 200 each. */
 static void
-half_transparent_is_the_limit (void)
+row_of_opacities (int first, int second, int third)
 {
   clear_paint (false);
-  for (int i = 0; i < 600; i++)
-    memcpy (paint_of + 4 * i, (uint8_t[4]) { 9, 99, 199, (uint8_t) (i < 300 ? 127 : 128) }, 4);
-  CHECK (read_size (WIDTH, HEIGHT) == CELD_OK && palette.n == 1 && palette.item[0].seeds == 300);
-  CHECK (seed_of[299] == 0 && seed_of[300] == 1);
+  for (int i = 0; i < 3 * 120; i++)
+    memcpy (paint_of + 4 * (10 * WIDTH + i),
+            (uint8_t[4]) { 9, 99, 199, (uint8_t) (i < 120 ? first : i < 240 ? second : third) }, 4);
+}
+
+/* Paint that is half opaque is a stroke, and so is, where there are faint strokes, what has a third of the opacity of
+ * the strongest paint that it touches; what an eraser left is none. */
+static void
+faint_strokes (void)
+{
+  static const struct { int opacity[3]; bool painted[3]; } row[] = {
+    { { 128, 0, 127 }, { true, false, true } },  { { 60, 0, 240 }, { true, false, true } },
+    { { 40, 0, 240 }, { false, false, true } },  { { 79, 80, 240 }, { false, true, true } },
+    { { 20, 60, 160 }, { false, true, true } },
+  };
+
+  for (size_t k = 0; k < sizeof row / sizeof *row; k++)
+    {
+      const int *o = row[k].opacity;
+
+      row_of_opacities (o[0], o[1], o[2]);
+      CHECK (read_size (WIDTH, HEIGHT) == CELD_OK && palette.n == 1);
+      for (int i = 0; i < 3; i++)
+        CHECK ((seed_of[10 * WIDTH + 120 * i + 60] != 0) == row[k].painted[i]);
+    }
+  clear_paint (false);
 }
 
 static void
@@ -428,6 +536,8 @@ main (void)
   RUN (two_hundred_labels);
   RUN (soft_overlaps);
   RUN (translucent_overlaps);
+  RUN (brushes_that_cross);
+  RUN (a_flat_mixture_is_a_label);
   RUN (rims_of_another_label);
   RUN (thin_lines_on_paper);
   RUN (lossy_paint);
@@ -435,7 +545,7 @@ main (void)
   RUN (soft_brushes_on_paper);
   RUN (blurred_strokes_on_paper);
   RUN (narrow_translucent_strokes_on_paper);
-  RUN (half_transparent_is_the_limit);
+  RUN (faint_strokes);
   RUN (remains_of_hard_strokes);
   RUN (sizes);
   celd_palette_clear (&palette);
