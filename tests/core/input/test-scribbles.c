@@ -278,6 +278,28 @@ brushes_that_cross (void)
       }
 }
 
+/* Soft strokes on white with the slight noise that a JPEG of high quality leaves: each is one label. */
+static void
+soft_strokes_with_slight_noise (void)
+{
+  static const uint8_t colour[3][3] = { { 220, 20, 30 }, { 40, 170, 60 }, { 30, 60, 220 } };
+  uint32_t             seed = 3;
+
+  clear_paint (true);
+  for (int k = 0; k < 3; k++)
+    spray (30, 60 + 80 * k, 370, 75 + 80 * k, 9, 0.3, 0.8, colour[k]);
+  for (int i = 0; i < WIDTH * HEIGHT; i++)
+    for (int k = 0; k < 3; k++)
+      {
+        int v = paint_of[4 * i + k] + (int) check_random (&seed, 4) - 1;
+
+        if (memcmp (paint_of + 4 * i, (uint8_t[3]) { 255, 255, 255 }, 3))
+          paint_of[4 * i + k] = (uint8_t) (v < 0 ? 0 : v > 255 ? 255 : v);
+      }
+  CHECK (read_size (WIDTH, HEIGHT) == CELD_OK);
+  NEAR (palette.n, 3, 0);
+}
+
 /* A short flat stroke in the very mixture of two others, which it touches, is a label: mixtures of opaque strokes are
  * nowhere flat, and those of translucent ones stronger than this. */
 static void
@@ -537,6 +559,7 @@ main (void)
   RUN (soft_overlaps);
   RUN (translucent_overlaps);
   RUN (brushes_that_cross);
+  RUN (soft_strokes_with_slight_noise);
   RUN (a_flat_mixture_is_a_label);
   RUN (rims_of_another_label);
   RUN (thin_lines_on_paper);
