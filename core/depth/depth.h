@@ -77,8 +77,9 @@ bool       celd_has_detour (const CeldPixelLinks *links, int x, int y, bool down
 
 /* ------------------------------------------------------------------ held-gaps.c */
 
-#define CELD_LONGEST_GAP 12 /* edge radii that a gap may be long, ink at its ends not counted: about 6 stroke widths,
-                             * hence 7 from one end of the line to the other (chosen) */
+/* Pixels that a gap may be long in a drawing with strokes of this width, ink at its ends not counted: about 6 stroke
+ * widths, hence 7 from one end of the line to the other. */
+double celd_longest_gap (int stroke);
 
 /* Fills in `cut`: the edges at which ink cuts depth, and the gaps that hold it.  A gap is a boundary of levels on paper
  * that meets ink and spans at most `longest` pixels.  Where `borders` (NULL: nowhere), the ink for segmentation, is ink

@@ -36,7 +36,7 @@ list_gaps (ExactGaps *g)
 }
 
 static CeldStatus
-find_gaps (ExactGaps *g, const CeldLabels *regions, const CeldPlane *borders, const CeldHost *host)
+find_gaps (ExactGaps *g, const CeldLabels *regions, const CeldPlane *borders, double longest, const CeldHost *host)
 {
   size_t     n = (size_t) regions->width * (size_t) regions->height;
   CeldStatus status;
@@ -47,7 +47,7 @@ find_gaps (ExactGaps *g, const CeldLabels *regions, const CeldPlane *borders, co
     return CELD_NO_MEMORY;
   for (size_t p = 0; p < n; p++)
     g->level[p] = (float) regions->data[p];
-  status = celd_gaps_hold (&g->edges, borders, g->level, (double) CELD_LONGEST_GAP * g->edges.radius, host, g->cut);
+  status = celd_gaps_hold (&g->edges, borders, g->level, longest, host, g->cut);
   return status == CELD_OK ? list_gaps (g) : status;
 }
 
@@ -91,7 +91,7 @@ celd_program_hold_gaps (CeldProgram *program, const CeldLabels *regions, const C
     program->stroke = celd_stroke_width (program->ink);
   gaps.edges.radius = celd_edge_radius (program->stroke);
   if (regions)
-    status = find_gaps (&gaps, regions, borders, host);
+    status = find_gaps (&gaps, regions, borders, celd_longest_gap (program->stroke), host);
   if (status == CELD_OK)
     exchange_gaps (program, &gaps, settings->weight_floor);
   celd_free (gaps.level);

@@ -19,6 +19,8 @@
 
 #include <math.h>
 
+#define LONGEST_GAP 12 /* half stroke widths, rounded up; chosen */
+
 /* While edges are examined: levels differ across the pixel's right (down 0) or lower edge (down 1), and it is not known
  * yet what that makes of it; and this is so for one of the two. */
 #define OPEN_EDGE(down) (uint8_t) (4u << (down))
@@ -170,6 +172,12 @@ celd_gaps_hold (const CeldDepthEdges *edges, const CeldPlane *borders, const flo
   return status;
 }
 
+double
+celd_longest_gap (int stroke)
+{
+  return LONGEST_GAP * (stroke > 2 ? (stroke + 1) / 2 : 1);
+}
+
 CeldStatus
 celd_depth_edges (const CeldPlane *ink, const CeldPlane *borders, const float *level, int stroke,
                   const CeldSettings *settings, const CeldHost *host, CeldDepthEdges *edges, uint8_t **cut)
@@ -182,7 +190,7 @@ celd_depth_edges (const CeldPlane *ink, const CeldPlane *borders, const float *l
     return CELD_OK;
   *cut = celd_alloc ((size_t) ink->width * (size_t) ink->height, sizeof **cut);
   if (*cut)
-    status = celd_gaps_hold (edges, borders, level, (double) CELD_LONGEST_GAP * edges->radius, host, *cut);
+    status = celd_gaps_hold (edges, borders, level, celd_longest_gap (stroke), host, *cut);
   edges->cut = *cut;
   return status;
 }

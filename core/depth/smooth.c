@@ -259,6 +259,7 @@ celd_smooth (const CeldPlane *ink, const CeldPlane *borders, const CeldPlane *le
   CeldSmoothInput smoothing = { ink, levels, borders, anchors, settings, 0, 0, CELD_SPECK, NULL };
   CeldPlane       made = { 0 };
   CeldSolve       how;
+  int             stroke;
   CeldStatus      status;
 
   if (!CELD_SAME_SIZE (ink, levels) || !CELD_SAME_SIZE (ink, depth) || (anchors && !CELD_SAME_SIZE (ink, anchors)) ||
@@ -266,8 +267,9 @@ celd_smooth (const CeldPlane *ink, const CeldPlane *borders, const CeldPlane *le
     return CELD_BAD_SIZE;
   if (celd_settings_check (settings) != CELD_OK)
     return CELD_BAD_VALUE;
-  smoothing.radius = celd_edge_radius (celd_stroke_width (ink));
-  smoothing.gap    = CELD_LONGEST_GAP * smoothing.radius;
+  stroke           = celd_stroke_width (ink);
+  smoothing.radius = celd_edge_radius (stroke);
+  smoothing.gap    = celd_longest_gap (stroke);
   status = celd_smooth_update (NULL, &smoothing, host, &made, &how);
   for (int y = 0; y < depth->height && status == CELD_OK; y++)
     memcpy (&CELD_AT (depth, 0, y), &CELD_AT (&made, 0, y), (size_t) depth->width * sizeof *depth->data);

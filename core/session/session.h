@@ -96,7 +96,7 @@ struct CeldSession
   /* smooth depth, normals, shading */
   CeldPlane       preview, depth, shading;
   CeldSmoothState smooth_state, preview_state;    /* what depth and its preview were made from */
-  int             edge_radius;                    /* celd_edge_radius of split_ink; 0: not measured */
+  int             stroke_width;                   /* celd_stroke_width of split_ink; 0: not measured */
   CeldPlane       preview_ink;                    /* of blocks of pixels; data NULL: not made */
   CeldVectors     normals;
 

@@ -34,7 +34,7 @@ note_ink_change (CeldSession *s, const CeldPlane *old, const CeldPlane *new)
   blocks.height -= blocks.y;
   celd_free (s->preview_ink.data);
   s->preview_ink = (CeldPlane) { 0 };
-  s->edge_radius = 0;
+  s->stroke_width = 0;
   celd_session_discard_ownership (s);
   s->smooth_state.new_ink  = celd_rect_union (s->smooth_state.new_ink, changed);
   s->preview_state.new_ink = celd_rect_union (s->preview_state.new_ink, blocks);
@@ -189,10 +189,10 @@ celd_session_borders (const CeldSession *s, CeldPlane *drawn, const CeldPlane **
 }
 
 static void
-measure_edge_radius (CeldSession *s)
+measure_stroke_width (CeldSession *s)
 {
-  if (!s->edge_radius)
-    s->edge_radius = celd_edge_radius (celd_stroke_width (celd_session_split_ink (s)));
+  if (!s->stroke_width)
+    s->stroke_width = celd_stroke_width (celd_session_split_ink (s));
 }
 
 CeldStatus
@@ -208,9 +208,9 @@ celd_make_depth (CeldSession *s, const CeldHost *host)
     status = celd_mask_new (s->levels.width, s->levels.height, &anchors.mask);
   if (status == CELD_OK)
     {
-      measure_edge_radius (s);
-      smoothing.radius = s->edge_radius;
-      smoothing.gap    = CELD_LONGEST_GAP * s->edge_radius;
+      measure_stroke_width (s);
+      smoothing.radius = celd_edge_radius (s->stroke_width);
+      smoothing.gap    = celd_longest_gap (s->stroke_width);
       choose_anchors (&anchors);
       status = smooth (s, STAGE_DEPTH, &anchors, &smoothing, host, &s->smooth_state, &s->depth);
     }
@@ -303,9 +303,9 @@ celd_make_preview (CeldSession *s, const CeldHost *host)
     status = celd_mask_new (levels.width, levels.height, &anchors.mask);
   if (status == CELD_OK)
     {
-      measure_edge_radius (s);
-      smoothing.radius   = s->edge_radius / BLOCK_SIDE;
-      smoothing.gap      = (double) CELD_LONGEST_GAP * s->edge_radius / BLOCK_SIDE;
+      measure_stroke_width (s);
+      smoothing.radius   = celd_edge_radius (s->stroke_width) / BLOCK_SIDE;
+      smoothing.gap      = celd_longest_gap (s->stroke_width) / BLOCK_SIDE;
       smoothing.borders  = borders.data ? &borders : NULL;
       settings.tolerance = fmaxf (settings.tolerance, CELD_PREVIEW_TOLERANCE);
       sample_levels (s, &levels);

@@ -183,7 +183,7 @@ clear_made (CeldSession *s)
   s->sheets      = NULL;
   s->segmenter   = NULL;
   s->program     = NULL;
-  s->edge_radius = 0;
+  s->stroke_width = 0;
   s->splits      = (CeldSplits) { 0 };
   s->segmented = s->separated = s->sheet_hints = (CeldLabels) { 0 };
   s->normals = (CeldVectors) { 0 };

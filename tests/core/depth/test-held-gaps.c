@@ -195,6 +195,33 @@ gaps_are_those_of_an_independent_search (void)
   CHECK (held > 1000 && open > 1000);
 }
 
+/* Six stroke widths are as short in a drawing of broad lines as in one of thin ones. */
+static void
+gaps_of_broad_lines_hold (void)
+{
+  for (int width = 8; width <= 64; width *= 2)
+    for (int gap = 4; gap <= 8; gap += 4) /* stroke widths */
+      {
+        int          w = (gap + 6) * width, h = 5 * width, x = w / 2, y = 5 * width / 2;
+        CeldPlane    ink = { 0 }, levels = { 0 }, depth = { 0 };
+        CeldSettings settings = celd_settings ();
+
+        CHECK (celd_plane_new (w, h, &ink) == CELD_OK && celd_plane_new (w, h, &levels) == CELD_OK);
+        CHECK (celd_plane_new (w, h, &depth) == CELD_OK);
+        for (int v = 0; v < h; v++)
+          for (int u = 0; u < w; u++)
+            {
+              CELD_AT (&ink, u, v) = abs (2 * v + 1 - h) > width || abs (2 * u + 1 - w) < gap * width;
+              CELD_AT (&levels, u, v) = v >= y;
+            }
+        CHECK (celd_smooth (&ink, NULL, &levels, NULL, &settings, NULL, &depth, NULL) == CELD_OK);
+        CHECK ((CELD_AT (&depth, x, y) - CELD_AT (&depth, x, y - 1) > 0.9) == (gap < 6));
+        celd_free (ink.data);
+        celd_free (levels.data);
+        celd_free (depth.data);
+      }
+}
+
 /* ------------------------------------------------------------------ after edits */
 
 /* Smooth depth of the patch; with a state that of the last call is `last`, and becomes the new one. */
@@ -251,6 +278,7 @@ int
 main (void)
 {
   RUN (a_gap_holds_and_an_opening_does_not);
+  RUN (gaps_of_broad_lines_hold);
   RUN (a_contour_for_segmentation_keeps_a_gap_smooth);
   RUN (gaps_are_those_of_an_independent_search);
   RUN (edited_gaps_equal_new_ones);
