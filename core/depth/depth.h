@@ -77,15 +77,18 @@ bool       celd_has_detour (const CeldPixelLinks *links, int x, int y, bool down
 
 /* ------------------------------------------------------------------ held-gaps.c */
 
-/* Pixels that a gap may be long in a drawing with strokes of this width, ink at its ends not counted: about 6 stroke
- * widths, hence 7 from one end of the line to the other. */
-double celd_longest_gap (int stroke);
+/* Pixels that a gap may be long, ink at its ends not counted, and if it interrupts broader lines than most. */
+typedef struct { double usual, most; } CeldGapLength;
+
+/* For a drawing with strokes of this width: about 6 stroke widths, hence 7 from one end of the line to the other; or as
+ * many widths of the lines that it interrupts, if they are up to 4 times as broad. */
+CeldGapLength celd_longest_gap (int stroke);
 
 /* Fills in `cut`: the edges at which ink cuts depth, and the gaps that hold it.  A gap is a boundary of levels on paper
- * that meets ink and spans at most `longest` pixels.  Where `borders` (NULL: nowhere), the ink for segmentation, is ink
+ * that meets ink and has no more than this length.  Where `borders` (NULL: nowhere), the ink for segmentation, is ink
  * within the radius, but that of `edges` is not, depth stays smooth.  cut of `edges` must be NULL. */
-CeldStatus celd_gaps_hold (const CeldDepthEdges *edges, const CeldPlane *borders, const float *level, double longest,
-                           const CeldHost *host, uint8_t *cut);
+CeldStatus celd_gaps_hold (const CeldDepthEdges *edges, const CeldPlane *borders, const float *level,
+                           CeldGapLength longest, const CeldHost *host, uint8_t *cut);
 
 /* The edges of levels for a drawing with strokes of this width, with the threshold of the settings.  With
  * settings->hold_gaps gaps are cut, too: `cut` is then allocated, and has to be freed even after a failure; else it is
@@ -233,7 +236,7 @@ typedef struct
   const CeldMask     *anchors;  /* NULL: none */
   const CeldSettings *settings;
   int                 radius;   /* celd_edge_radius of the ink */
-  double              gap;      /* pixels, the longest gap that holds depth */
+  CeldGapLength       gap;      /* of the longest that holds depth */
   size_t              speck;    /* least pixels of a region that is held by its core, as CELD_SPECK */
   const float        *last;     /* the depth that the state belongs to; NULL: none */
 } CeldSmoothInput;

@@ -36,7 +36,7 @@ list_gaps (ExactGaps *g)
 }
 
 static CeldStatus
-find_gaps (ExactGaps *g, const CeldLabels *regions, const CeldPlane *borders, double longest, const CeldHost *host)
+find_gaps (ExactGaps *g, const CeldLabels *regions, const CeldPlane *borders, CeldGapLength longest, const CeldHost *host)
 {
   size_t     n = (size_t) regions->width * (size_t) regions->height;
   CeldStatus status;

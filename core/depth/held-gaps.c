@@ -6,6 +6,9 @@
  * other through the break.  The two are told apart by their length: the boundary of levels on paper, from ink to ink,
  * is a gap if it fits into a short distance, and an opening otherwise.
  *
+ * A drawing may have broader lines than most of it: a gap may also be as many widths long of the lines that it
+ * interrupts.  How broad these are is looked at only where a piece is too long otherwise.
+ *
  * Boundaries run along pixel edges.  Edges on paper that share a corner make one piece, whose bounding box is measured.
  * A piece that nowhere meets ink is no gap in it.  Contours that are for segmentation only stay smooth.
  *
@@ -19,7 +22,10 @@
 
 #include <math.h>
 
-#define LONGEST_GAP 12 /* half stroke widths, rounded up; chosen */
+#define LONGEST_GAP   12 /* half stroke widths, rounded up; chosen */
+#define MOST_BROADER  4  /* times as broad as most lines; broader ink is an area; chosen */
+#define BROADEST_AREA 3  /* times as broad as a line has to be; broader ink is an area; chosen */
+#define DISC_PLACES   16 /* on the rim of a disc, and halfway to it, that are looked at; chosen */
 
 /* While edges are examined: levels differ across the pixel's right (down 0) or lower edge (down 1), and it is not known
  * yet what that makes of it; and this is so for one of the two. */
@@ -38,6 +44,7 @@ typedef struct
   size_t                n, item_capacity;
   int                   left, top, right, bottom;
   bool                  meets_ink;
+  PixelEdge             end[2]; /* where it first meets ink, and where it does farthest from there */
 } OpenPiece;
 
 /* ------------------------------------------------------------------ which edges are on paper */
@@ -82,6 +89,18 @@ examine_row (const CeldDepthEdges *edges, const CeldPlane *borders, const float 
 
 /* ------------------------------------------------------------------ pieces */
 
+/* The piece meets ink at this edge. */
+static void
+add_end (OpenPiece *p, PixelEdge at)
+{
+  if (!p->meets_ink)
+    p->end[0] = p->end[1] = at;
+  p->meets_ink = true;
+  if (hypot (at.x - p->end[0].x, at.y - p->end[0].y) >
+      hypot (p->end[1].x - p->end[0].x, p->end[1].y - p->end[0].y))
+    p->end[1] = at;
+}
+
 /* Adds the edge to the piece if it is on paper. */
 static CeldStatus
 visit_edge (OpenPiece *p, int x, int y, int down)
@@ -91,7 +110,8 @@ visit_edge (OpenPiece *p, int x, int y, int down)
   if (x < 0 || y < 0 || x >= p->edges->ink->width || y >= p->edges->ink->height)
     return CELD_OK;
   here = p->cut + (size_t) y * (size_t) p->edges->ink->width + (size_t) x;
-  p->meets_ink = p->meets_ink || *here & CELD_CUT (down);
+  if (*here & CELD_CUT (down))
+    add_end (p, (PixelEdge) { x, y, down });
   if (!(*here & OPEN_EDGE (down)))
     return CELD_OK;
   *here &= (uint8_t) ~OPEN_EDGE (down);
@@ -117,10 +137,55 @@ visit_corner (OpenPiece *p, int x, int y)
   return status;
 }
 
+/* ------------------------------------------------------------------ gaps of broad lines */
+
+/* Is nearly all ink in a disc? */
+static bool
+is_inked (const CeldPlane *ink, double x, double y, double radius)
+{
+  for (int i = 0; i < 2 * DISC_PLACES; i++)
+    {
+      double angle = 2 * CELD_PI * i / DISC_PLACES, r = i < DISC_PLACES ? radius : radius / 2;
+      int    u = (int) floor (x + r * cos (angle)), v = (int) floor (y + r * sin (angle));
+
+      if (u < 0 || v < 0 || u >= ink->width || v >= ink->height || celd_is_paper (CELD_AT (ink, u, v)))
+        return false;
+    }
+  return true;
+}
+
+/* Does ink have room for a disc of this diameter beside the edge? */
+static bool
+has_room (const CeldDepthEdges *edges, PixelEdge at, double diameter)
+{
+  double reach = edges->radius + diameter, step = fmax (1, diameter / 4);
+
+  for (double dy = -reach; dy <= reach; dy += step)
+    for (double dx = -reach; dx <= reach; dx += step)
+      if (hypot (dx, dy) <= reach && is_inked (edges->ink, at.x + 0.5 + dx, at.y + 0.5 + dy, diameter / 2))
+        return true;
+  return false;
+}
+
+/* Does a piece of this length end at two lines of which it is a gap, by their widths?  Areas are none. */
+static bool
+is_gap_of_broad_lines (const OpenPiece *p, double length)
+{
+  double least = 2 * length / LONGEST_GAP;
+
+  for (int i = 0; i < 2; i++)
+    if (!has_room (p->edges, p->end[i], least) || has_room (p->edges, p->end[i], BROADEST_AREA * least))
+      return false;
+  return true;
+}
+
+/* ------------------------------------------------------------------ the whole */
+
 /* Collects the piece of this edge, and cuts it if it is a gap. */
 static CeldStatus
-hold_piece (OpenPiece *p, int x, int y, int down, double longest)
+hold_piece (OpenPiece *p, int x, int y, int down, CeldGapLength longest)
 {
+  double     length;
   CeldStatus status;
 
   p->n         = 0;
@@ -136,7 +201,9 @@ hold_piece (OpenPiece *p, int x, int y, int down, double longest)
       if (status == CELD_OK)
         status = visit_corner (p, e.x + !e.down, e.y + e.down);
     }
-  if (status == CELD_OK && p->meets_ink && hypot (p->right - p->left, p->bottom - p->top) <= longest)
+  length = hypot (p->right - p->left, p->bottom - p->top);
+  if (status == CELD_OK && p->meets_ink &&
+      (length <= longest.usual || (length <= longest.most && is_gap_of_broad_lines (p, length))))
     for (size_t i = 0; i < p->n; i++)
       p->cut[(size_t) p->item[i].y * (size_t) p->edges->ink->width + (size_t) p->item[i].x] |=
         CELD_CUT (p->item[i].down);
@@ -144,7 +211,7 @@ hold_piece (OpenPiece *p, int x, int y, int down, double longest)
 }
 
 CeldStatus
-celd_gaps_hold (const CeldDepthEdges *edges, const CeldPlane *borders, const float *level, double longest,
+celd_gaps_hold (const CeldDepthEdges *edges, const CeldPlane *borders, const float *level, CeldGapLength longest,
                 const CeldHost *host, uint8_t *cut)
 {
   int        w = edges->ink->width, h = edges->ink->height;
@@ -172,10 +239,12 @@ celd_gaps_hold (const CeldDepthEdges *edges, const CeldPlane *borders, const flo
   return status;
 }
 
-double
+CeldGapLength
 celd_longest_gap (int stroke)
 {
-  return LONGEST_GAP * (stroke > 2 ? (stroke + 1) / 2 : 1);
+  double usual = LONGEST_GAP * (stroke > 2 ? (stroke + 1) / 2 : 1);
+
+  return (CeldGapLength) { usual, MOST_BROADER * usual };
 }
 
 CeldStatus

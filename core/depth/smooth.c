@@ -256,7 +256,7 @@ CeldStatus
 celd_smooth (const CeldPlane *ink, const CeldPlane *borders, const CeldPlane *levels, const CeldMask *anchors,
              const CeldSettings *settings, const CeldHost *host, CeldPlane *depth, CeldSolve *solve)
 {
-  CeldSmoothInput smoothing = { ink, levels, borders, anchors, settings, 0, 0, CELD_SPECK, NULL };
+  CeldSmoothInput smoothing = { ink, levels, borders, anchors, settings, 0, { 0, 0 }, CELD_SPECK, NULL };
   CeldPlane       made = { 0 };
   CeldSolve       how;
   int             stroke;

@@ -305,7 +305,9 @@ celd_make_preview (CeldSession *s, const CeldHost *host)
     {
       measure_stroke_width (s);
       smoothing.radius   = celd_edge_radius (s->stroke_width) / BLOCK_SIDE;
-      smoothing.gap      = celd_longest_gap (s->stroke_width) / BLOCK_SIDE;
+      smoothing.gap      = celd_longest_gap (s->stroke_width);
+      smoothing.gap.usual /= BLOCK_SIDE;
+      smoothing.gap.most /= BLOCK_SIDE;
       smoothing.borders  = borders.data ? &borders : NULL;
       settings.tolerance = fmaxf (settings.tolerance, CELD_PREVIEW_TOLERANCE);
       sample_levels (s, &levels);

@@ -178,7 +178,7 @@ gaps_are_those_of_an_independent_search (void)
 
       draw_blocks (&p, &r);
       number_pieces (&p);
-      CHECK (celd_gaps_hold (&edges, NULL, p.level, longest, NULL, cut) == CELD_OK);
+      CHECK (celd_gaps_hold (&edges, NULL, p.level, (CeldGapLength) { longest, longest }, NULL, cut) == CELD_OK);
       for (int y = 0; y < SIDE; y++)
         for (int x = 0; x < SIDE; x++)
           for (int down = 0; down < 2; down++)
@@ -195,31 +195,55 @@ gaps_are_those_of_an_independent_search (void)
   CHECK (held > 1000 && open > 1000);
 }
 
+/* A page with a horizontal line of this width, interrupted for so many pixels in the middle of the page; below it
+ * other lines of a third of the width.  Levels are 0 and 1 above and below the middle of the line. */
+static double
+step_in_gap (int width, int gap, bool others, bool area)
+{
+  int          w = gap + 8 * width, h = 16 * width, y = 5 * width / 2;
+  CeldPlane    ink = { 0 }, levels = { 0 }, depth = { 0 };
+  CeldSettings settings = celd_settings ();
+  double       step;
+
+  CHECK (celd_plane_new (w, h, &ink) == CELD_OK && celd_plane_new (w, h, &levels) == CELD_OK);
+  CHECK (celd_plane_new (w, h, &depth) == CELD_OK);
+  for (int v = 0; v < h; v++)
+    for (int u = 0; u < w; u++)
+      {
+        bool paper = abs (2 * (v - y) + 1) > (area ? 4 : 1) * width || abs (2 * u + 1 - w) < gap;
+
+        CELD_AT (&ink, u, v) = paper && !(others && v > 6 * width && (v - 6 * width) % width < width / 3);
+        CELD_AT (&levels, u, v) = v >= y;
+      }
+  CHECK (celd_smooth (&ink, NULL, &levels, NULL, &settings, NULL, &depth, NULL) == CELD_OK);
+  step = CELD_AT (&depth, w / 2, y) - CELD_AT (&depth, w / 2, y - 1);
+  celd_free (ink.data);
+  celd_free (levels.data);
+  celd_free (depth.data);
+  return step;
+}
+
 /* Six stroke widths are as short in a drawing of broad lines as in one of thin ones. */
 static void
 gaps_of_broad_lines_hold (void)
 {
   for (int width = 8; width <= 64; width *= 2)
-    for (int gap = 4; gap <= 8; gap += 4) /* stroke widths */
-      {
-        int          w = (gap + 6) * width, h = 5 * width, x = w / 2, y = 5 * width / 2;
-        CeldPlane    ink = { 0 }, levels = { 0 }, depth = { 0 };
-        CeldSettings settings = celd_settings ();
+    {
+      CHECK (step_in_gap (width, 4 * width, false, false) > 0.9);
+      CHECK (step_in_gap (width, 8 * width, false, false) < 0.5);
+    }
+}
 
-        CHECK (celd_plane_new (w, h, &ink) == CELD_OK && celd_plane_new (w, h, &levels) == CELD_OK);
-        CHECK (celd_plane_new (w, h, &depth) == CELD_OK);
-        for (int v = 0; v < h; v++)
-          for (int u = 0; u < w; u++)
-            {
-              CELD_AT (&ink, u, v) = abs (2 * v + 1 - h) > width || abs (2 * u + 1 - w) < gap * width;
-              CELD_AT (&levels, u, v) = v >= y;
-            }
-        CHECK (celd_smooth (&ink, NULL, &levels, NULL, &settings, NULL, &depth, NULL) == CELD_OK);
-        CHECK ((CELD_AT (&depth, x, y) - CELD_AT (&depth, x, y - 1) > 0.9) == (gap < 6));
-        celd_free (ink.data);
-        celd_free (levels.data);
-        celd_free (depth.data);
-      }
+/* Of broad lines in a drawing of thin ones too, but not between areas. */
+static void
+gaps_of_the_broadest_lines_hold (void)
+{
+  for (int width = 12; width <= 48; width *= 2)
+    {
+      CHECK (step_in_gap (width, 4 * width, true, false) > 0.9);
+      CHECK (step_in_gap (width, 8 * width, true, false) < 0.5);
+      CHECK (step_in_gap (width, 4 * width, true, true) < 0.5);
+    }
 }
 
 /* ------------------------------------------------------------------ after edits */
@@ -231,7 +255,7 @@ smooth_patch (Patch *p, CeldSmoothState *state, const CeldMask *anchors, CeldPla
   CeldSettings    settings = celd_settings ();
   CeldPlane       ink = { SIDE, SIDE, SIDE, p->ink }, level = { SIDE, SIDE, SIDE, p->level }, depth = { 0 };
   CeldSmoothInput input = { .ink = &ink, .levels = &level, .anchors = anchors, .settings = &settings, .radius = 1,
-                            .gap = 7, .speck = 4, .last = last->data };
+                            .gap = { 7, 7 }, .speck = 4, .last = last->data };
   CeldSolve       how;
 
   settings.ink_threshold = 0;
@@ -279,6 +303,7 @@ main (void)
 {
   RUN (a_gap_holds_and_an_opening_does_not);
   RUN (gaps_of_broad_lines_hold);
+  RUN (gaps_of_the_broadest_lines_hold);
   RUN (a_contour_for_segmentation_keeps_a_gap_smooth);
   RUN (gaps_are_those_of_an_independent_search);
   RUN (edited_gaps_equal_new_ones);
