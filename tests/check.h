@@ -103,6 +103,17 @@ check_random (uint32_t *state, uint32_t n)
   return (uint32_t) (((uint64_t) (*state >> 8) * n) >> 24);
 }
 
+/* A sum of four uniform numbers: nearly normal, deviation 1. */
+static inline float
+check_noise (uint32_t *state)
+{
+  float sum = 0;
+
+  for (int i = 0; i < 4; i++)
+    sum += (float) check_random (state, 10001) / 10000 - 0.5f;
+  return sum * 1.732f;
+}
+
 /* ------------------------------------------------------------------ hosts */
 
 /* Progress that cancels at once. */

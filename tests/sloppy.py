@@ -52,18 +52,23 @@ def tail(size, end, direction, width, length):
     return np.array(picture) > 0
 
 
+def strokes_in(truth, regions, scribbles, colours):
+    """Pixels of right paint by region, and (shape, colour, mask) of every stroke."""
+    right, strokes = np.zeros(regions.max() + 1), []
+    for shape, colour in colours:
+        own = (scribbles[..., 3] > 127) & np.all(scribbles[..., :3] == colour, -1)
+        right += np.bincount(regions[own & (truth == shape)], minlength=len(right))
+        pieces, n = ndimage.label(own, np.ones((3, 3)))
+        strokes += [(shape, colour, pieces == k) for k in range(1, n + 1)]
+    return right, strokes
+
+
 def sloppy(truth, scribbles, colours):
     """scribbles with tails; colours is a list of (shape, (r, g, b))."""
     regions, result = regions_of(truth), scribbles.copy()
     painted = scribbles[..., 3] > 127
-    right = np.zeros(regions.max() + 1)
-    foreign = np.zeros(regions.max() + 1)
-    strokes = []
-    for shape, colour in colours:
-        own = painted & np.all(scribbles[..., :3] == colour, -1)
-        right += np.bincount(regions[own & (truth == shape)], minlength=len(right))
-        pieces, n = ndimage.label(own, np.ones((3, 3)))
-        strokes += [(shape, colour, pieces == k) for k in range(1, n + 1)]
+    right, strokes = strokes_in(truth, regions, scribbles, colours)
+    foreign = np.zeros(len(right))
     for shape, colour, stroke in strokes:
         width = max(2, round(2 * ndimage.distance_transform_edt(stroke).max()) - 1)
         for end, direction in ends_of(stroke):

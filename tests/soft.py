@@ -19,7 +19,7 @@ from scipy import ndimage
 
 from cases.score import Case
 from pixel import thin
-from sloppy import MARGIN, ends_of, regions_of, tail
+from sloppy import MARGIN, ends_of, regions_of, strokes_in, tail
 
 BEYOND = 8       # pixels that a stroke runs on beyond the one that it crosses
 BRUSHES = [(0.3, 0.9, 4), (0.3, 0.5, 8), (0.5, 0, 12), (0.6, 0.75, 6), (0.8, 0.3, 8), (1, 0, 10), (1, 0.9, 5)]
@@ -31,14 +31,8 @@ def paths_of(truth, scribbles, colours):
     regions = regions_of(truth)
     size = truth.shape[::-1]
     painted = scribbles[..., 3] > 127
-    right = np.zeros(regions.max() + 1)
-    foreign = np.zeros(regions.max() + 1)
-    strokes = []
-    for shape, colour in colours:
-        own = painted & np.all(scribbles[..., :3] == colour, -1)
-        right += np.bincount(regions[own & (truth == shape)], minlength=len(right))
-        pieces, n = ndimage.label(own, np.ones((3, 3)))
-        strokes += [(shape, colour, pieces == k) for k in range(1, n + 1)]
+    right, strokes = strokes_in(truth, regions, scribbles, colours)
+    foreign = np.zeros(len(right))
     for shape, colour, stroke in strokes:
         others = painted & ~np.all(scribbles[..., :3] == colour, -1)
         width = max(2, round(2 * ndimage.distance_transform_edt(stroke).max()) - 1)

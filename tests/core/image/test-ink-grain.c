@@ -79,17 +79,6 @@ long_gaps_stay (void)
 
 /* ------------------------------------------------------------------ chalk */
 
-/* A sum of four uniform numbers: nearly normal, deviation 1. */
-static float
-grain (uint32_t *seed)
-{
-  float sum = 0;
-
-  for (int i = 0; i < 4; i++)
-    sum += (float) check_random (seed, 10001) / 10000 - 0.5f;
-  return sum * 1.732f;
-}
-
 /* Grain about three pixels wide, deviation 1. */
 static float
 wide_grain (int x, int y)
@@ -115,14 +104,14 @@ static void
 draw_chalk (uint32_t seed)
 {
   for (int i = 0; i < SIDE * SIDE; i++)
-    fine_of[i] = grain (&seed);
+    fine_of[i] = check_noise (&seed);
   for (int i = 0; i < SIDE * SIDE; i++)
     {
       int   x = i % SIDE, y = i / SIDE;
       bool  stroke = y >= 68 && y < 92 && from_window (x, y) > 0;
       float chalk = fminf (fmaxf (0.75f + 0.22f * wide_grain (x, y), 0.15f), 1);
 
-      luma_of[i] = 0.16f + 0.01f * grain (&seed) + (stroke ? 0.7f * chalk : 0);
+      luma_of[i] = 0.16f + 0.01f * check_noise (&seed) + (stroke ? 0.7f * chalk : 0);
     }
 }
 

@@ -84,17 +84,6 @@ paper_mean (float *least)
   return (float) (sum / n);
 }
 
-/* A sum of four uniform numbers: nearly normal, deviation 1. */
-static float
-grain (uint32_t *seed)
-{
-  float sum = 0;
-
-  for (int i = 0; i < 4; i++)
-    sum += (float) check_random (seed, 10001) / 10000 - 0.5f;
-  return sum * 1.732f;
-}
-
 static void
 clean_art_stays (void)
 {
@@ -136,7 +125,7 @@ white_stays_white (void)
   for (int i = 0; i < SIDE * SIDE; i++)
     CHECK (ink_of[i] == 1);
   for (int i = 0; i < SIDE * SIDE; i++)
-    luma_of[i] = 0.93f + 0.012f * grain (&seed);
+    luma_of[i] = 0.93f + 0.012f * check_noise (&seed);
   CHECK (make_ink (CELD_INK_AUTO, false) == CELD_OK);
   CHECK (paper_mean (&least) > 0.98f && least > 0.75f);
 }
@@ -151,8 +140,8 @@ pencil_becomes_ink (void)
   for (int i = 0; i < SIDE * SIDE; i++)
     {
       int   x = i % SIDE, y = i / SIDE;
-      float paper = 0.95f - 0.3f * (float) x / SIDE + 0.012f * grain (&seed);
-      float press = 0.55f + 0.2f * sinf ((float) (x + y) / 15), pores = 1 - 0.2f * fabsf (grain (&seed));
+      float paper = 0.95f - 0.3f * (float) x / SIDE + 0.012f * check_noise (&seed);
+      float press = 0.55f + 0.2f * sinf ((float) (x + y) / 15), pores = 1 - 0.2f * fabsf (check_noise (&seed));
 
       luma_of[i] = paper * (1 - press * pores * coverage (x, y, 5));
     }
@@ -169,7 +158,7 @@ pale_lines_in_grain_stay_whole (void)
   float    least;
 
   for (int i = 0; i < SIDE * SIDE; i++)
-    luma_of[i] = 0.94f * (1 - 0.23f * coverage (i % SIDE, i / SIDE, 4)) + 0.025f * grain (&seed);
+    luma_of[i] = 0.94f * (1 - 0.23f * coverage (i % SIDE, i / SIDE, 4)) + 0.025f * check_noise (&seed);
   CHECK (make_ink (CELD_INK_AUTO, false) == CELD_OK);
   CHECK (palest_of_ring () <= 0.2f);
   CHECK (paper_mean (&least) >= 0.95f && least > 0.6f);
@@ -242,7 +231,7 @@ faint_lines_beside_dark_ones_stay_closed (void)
           float faint = pale * ring_coverage (i % SIDE, i / SIDE, 50, 1.2f);
           float dark = 0.9f * ring_coverage (i % SIDE, i / SIDE, 70, 4);
 
-          luma_of[i] = fminf (0.96f * (1 - faint - dark) + noise * grain (&seed), 1);
+          luma_of[i] = fminf (0.96f * (1 - faint - dark) + noise * check_noise (&seed), 1);
         }
       CHECK (make_ink (CELD_INK_AUTO, false) == CELD_OK);
       for (int i = 0; i < SIDE * SIDE; i++) /* the dark ring is a wall, too: look at the faint one alone */
@@ -268,14 +257,14 @@ chalk_with_holes_stays_closed (void)
       uint32_t state = seed;
 
       for (int i = 0; i < SIDE * SIDE; i++)
-        alpha_of[i] = grain (&state);
+        alpha_of[i] = check_noise (&state);
       for (int i = 0; i < SIDE * SIDE; i++)
         {
           int   right = i % SIDE < SIDE - 1, below = i / SIDE < SIDE - 1 ? SIDE : 0;
           float holes = 0.5f * (alpha_of[i] + alpha_of[i + right] + alpha_of[i + below] + alpha_of[i + right + below]);
           float chalk = fminf (fmaxf (0.75f + 0.22f * holes, 0.15f), 1);
 
-          luma_of[i] = 0.16f + 0.01f * grain (&state) + 0.7f * chalk * ring_coverage (i % SIDE, i / SIDE, 50, 2);
+          luma_of[i] = 0.16f + 0.01f * check_noise (&state) + 0.7f * chalk * ring_coverage (i % SIDE, i / SIDE, 50, 2);
         }
       CHECK (make_ink (CELD_INK_AUTO, false) == CELD_OK);
       CHECK (!ring_leaks (0.25f));
@@ -299,7 +288,7 @@ blur_fills_no_neck (void)
 
           for (int k = 0; k < 4; k++) /* steps up and down, after a Gaussian of 1.2 pixels */
             edges += (k % 2 ? -0.5f : 0.5f) * erff ((u - edge[k]) / (1.2f * 1.41421f));
-          luma_of[i] = 0.96f - 0.86f * edges + 0.016f * grain (&state);
+          luma_of[i] = 0.96f - 0.86f * edges + 0.016f * check_noise (&state);
         }
       CHECK (make_ink (CELD_INK_AUTO, false) == CELD_OK);
       for (int y = 20; y < SIDE - 20; y++)
@@ -384,7 +373,7 @@ light_is_dark_inverted (void)
   uint32_t     seed = 3;
 
   for (int i = 0; i < SIDE * SIDE; i++)
-    luma_of[i] = fminf (1 - 0.8f * coverage (i % SIDE, i / SIDE, 4) - 0.05f + 0.01f * grain (&seed), 1);
+    luma_of[i] = fminf (1 - 0.8f * coverage (i % SIDE, i / SIDE, 4) - 0.05f + 0.01f * check_noise (&seed), 1);
   CHECK (make_ink (CELD_INK_DARK, false) == CELD_OK);
   memcpy (dark, ink_of, sizeof dark);
   for (int i = 0; i < SIDE * SIDE; i++)
