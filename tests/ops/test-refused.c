@@ -113,7 +113,7 @@ new_effect (const char *operation)
   for (int i = 0; i < 2; i++)
     {
       e.source[i] = gegl_node_new_child (e.graph, "operation", "gegl:buffer-source", NULL);
-      gegl_node_connect_to (e.source[i], "output", e.node, i ? "scribbles" : "input");
+      join (e.source[i], e.node, i ? "scribbles" : "input");
     }
   return e;
 }
