@@ -19,6 +19,8 @@
 #define SHORTEST_ARM 6    /* pixels of such an arm, at least */
 #define SCALES       9    /* lengths of arms that are tried */
 #define SCALE_FACTOR 1.4  /* each is so many times the one before it */
+#define LEAST_OUTLINE 3.5 /* arms: on a shorter outline, as that of a dot, the ends of both arms are near each other
+                            * everywhere */
 #define SHARP_TURN   0.6  /* distance of both arms' ends, relative to the arms' lengths: a right angle has 0.71 */
 #define CERTAIN_TIP  0.42 /* the largest such value for a line whose direction cannot be fitted */
 #define SAME_END     0.75 /* line widths: ends closer than this are the same */
@@ -212,7 +214,7 @@ search_outline (LineEndSearch *s, size_t arm)
   size_t     step = arm / 8 ? arm / 8 : 1;
   CeldStatus status = CELD_OK;
 
-  if (2 * s->n < 7 * arm)
+  if ((double) s->n < LEAST_OUTLINE * (double) arm)
     return CELD_OK;
   for (size_t i = 0; i < s->n && status == CELD_OK; i += step)
     {
