@@ -86,9 +86,10 @@ gboolean
 celd_pipeline_make_relief (CeldPipeline *p, CeldPipelineProgress progress, gpointer data, GError **error)
 {
   CeldPipelineReport before = { progress, data, NULL, 0, BEGIN_LAYERS };
-  CeldPipelineReport layers = { progress, data, "Cutting the layers", BEGIN_LAYERS, BEGIN_RELIEF - BEGIN_LAYERS };
-  CeldPipelineReport relief = { progress, data, "Raising the parts", BEGIN_RELIEF, BEGIN_SCENE - BEGIN_RELIEF };
-  CeldPipelineReport scene = { progress, data, "Placing the layers", BEGIN_SCENE, 1 - BEGIN_SCENE };
+  CeldPipelineReport layers = { progress, data, N_ ("Cutting the layers"), BEGIN_LAYERS,
+                                BEGIN_RELIEF - BEGIN_LAYERS };
+  CeldPipelineReport relief = { progress, data, N_ ("Raising the parts"), BEGIN_RELIEF, BEGIN_SCENE - BEGIN_RELIEF };
+  CeldPipelineReport scene = { progress, data, N_ ("Placing the layers"), BEGIN_SCENE, 1 - BEGIN_SCENE };
 
   celd_pipeline_drop_relief (p);
   return celd_pipeline_try (celd_pipeline_complete_layers (p, true), error) &&
@@ -137,7 +138,7 @@ gboolean
 celd_pipeline_write_turned (CeldPipeline *p, int frame, int frames, CeldPipelineProgress progress, gpointer data,
                             GeglBuffer *buffer, GError **error)
 {
-  CeldPipelineReport r = { progress, data, "Turning the relief", 0, 1 };
+  CeldPipelineReport r = { progress, data, N_ ("Turning the relief"), 0, 1 };
   CeldCamera         camera = celd_camera_on_path (CELD_PATH_TURNTABLE, 2 * frame + 3 * (frames - 1), 4 * (frames - 1));
   CeldColours        view = celd_pipeline_new_colours (p);
   CeldStatus         status = !p->relief ? CELD_BAD_VALUE : !view.data ? CELD_NO_MEMORY
