@@ -8,7 +8,7 @@
  * 3. Fills that are narrow between lines are told apart from wide lines (narrow-fills.c).
  * 4. Strength: the contrast, divided by that of the core of the line.
  * 5. Where lines meet, and where strokes are thicker than most, they are wider than the window.  There, what has the
- *    colour of lines and fits into the widest window is a line as well (thick-lines.c).
+ *    colour of lines (line-tones.c) and fits into the widest window is a line as well (thick-lines.c).
  * 6. Where two fills meet without a line, one is drawn (fill-edges.c).
  * Large areas in the colour of lines remain fills: an artist can scribble on them.  Sprites have lines that need no
  * windows (sprite-lines.c).
@@ -26,7 +26,6 @@
 #define FAINTEST_LINE 20     /* of 255: least contrast of the core of a line; chosen */
 #define COMPRESSED    8      /* pixels: a block of JPEG */
 #define EDGE          2      /* pixels from the core of a line to its antialiased edge */
-#define TONES         16     /* per channel, by which the colours of lines are counted; chosen */
 
 typedef struct
 {
@@ -36,8 +35,7 @@ typedef struct
   void           *work;        /* of celd_erode_bytes */
   int             widest;      /* radius of the widest window for thick strokes among thinner lines */
   int             broadest;    /* radius of the window for lines that are all broad */
-  uint32_t        tone[TONES * TONES * TONES]; /* how many cores of lines have a tone, or one next to it */
-  uint32_t        cores;
+  CeldLineTones   tones;
 } Lines;
 
 /* ------------------------------------------------------------------ work space */
@@ -210,16 +208,6 @@ clear_narrow_fills (Lines *l, int radius, int faintest)
 
 /* ------------------------------------------------------------------ strength */
 
-static uint32_t *
-tone_of (Lines *l, size_t pixel)
-{
-  size_t tone = 0;
-
-  for (int c = 0; c < 3; c++)
-    tone = tone * TONES + (size_t) l->channel[c].data[pixel] * TONES / 256;
-  return &l->tone[tone];
-}
-
 /* The largest contrast of a pixel and those around it. */
 static int
 most_around (const Lines *l, int x, int y)
@@ -247,10 +235,7 @@ take_core (Lines *l, int x, int y, int faintest)
     return;
   CELD_AT (&l->level, x, y) = (uint8_t) c;
   if (c == most)
-    {
-      l->cores++;
-      ++*tone_of (l, (size_t) y * l->level.stride + (size_t) x);
-    }
+    celd_line_tone_count (&l->tones, l->channel, (size_t) y * l->level.stride + (size_t) x);
 }
 
 /* Sets l->level to the contrast of the core of a line at each pixel next to one, and counts the tones of cores. */
@@ -305,24 +290,6 @@ raise_edges (Lines *l)
   celd_dilate_bytes (&l->level, EDGE - 1, l->work);
 }
 
-/* Adds to each tone the 26 around it. */
-static void
-blur_tones (Lines *l)
-{
-  uint32_t sum[TONES + 2];
-
-  for (size_t step = 1; step <= TONES * TONES; step *= TONES)
-    for (size_t i = 0; i < TONES * TONES * TONES; i++)
-      if (i / step % TONES == 0)
-        {
-          sum[0] = sum[TONES + 1] = 0;
-          for (size_t k = 0; k < TONES; k++)
-            sum[k + 1] = l->tone[i + k * step];
-          for (size_t k = 0; k < TONES; k++)
-            l->tone[i + k * step] = sum[k] + sum[k + 1] + sum[k + 2];
-        }
-}
-
 CELD_CLONES static void
 write_strengths (const uint8_t *restrict strength, int n, float *restrict luma)
 {
@@ -338,7 +305,7 @@ write_thick (Lines *l, int x, int y, int n, float *luma)
 
   if (celd_any_byte_reaches (l->contrast.data + first, (size_t) n, 1))
     for (int i = 0; i < n; i++)
-      if (l->contrast.data[first + (size_t) i] && 100 * (size_t) *tone_of (l, first + (size_t) i) >= l->cores)
+      if (l->contrast.data[first + (size_t) i] && celd_is_line_tone (&l->tones, l->channel, first + (size_t) i))
         luma[i] = 0;
 }
 
@@ -378,7 +345,7 @@ find_lines (Lines *l, CeldDrawing *drawing)
   if (status != CELD_OK)
     return status;
   find_cores (l, radius, faintest);
-  blur_tones (l);
+  celd_line_tones_blur (&l->tones);
   raise_edges (l);
   celd_line_strengths (l->contrast.data, faintest, pixels (l), l->level.data);
   status = celd_thick_lines (l->channel, radius > l->widest / 2 ? 2 * radius : l->widest, faintest, &last, l->work,

@@ -193,6 +193,20 @@ CeldStatus celd_line_window (CeldMask channel[3], int broadest, const CeldHost *
 void celd_clear_narrow_fills (CeldMask *lightness, int radius, int faintest, void *work, CeldMask *light, CeldMask *fill,
                               CeldMask *contrast);
 
+#define CELD_LINE_TONES 16 /* per channel; chosen */
+
+typedef struct
+{
+  uint32_t count[CELD_LINE_TONES * CELD_LINE_TONES * CELD_LINE_TONES]; /* of cores, by red, green and blue */
+  uint32_t cores;
+} CeldLineTones;
+
+/* line-tones.c: counts the pixel with this index, which is the core of a line; adds to each count those of the 26
+ * colours around; whether enough cores have the colour of a pixel.  All counts are 0 at first. */
+void celd_line_tone_count (CeldLineTones *tones, const CeldMask channel[3], size_t pixel);
+void celd_line_tones_blur (CeldLineTones *tones);
+bool celd_is_line_tone (const CeldLineTones *tones, const CeldMask channel[3], size_t pixel);
+
 /* thick-lines.c: sets `thick` to 1 where some channel has at least half of the contrast of black against its closing by
  * `radius`, and none is lighter than its opening, by a contrast of `faintest`, 1 .. 254; else to 0.  `work` is for this
  * radius, `spare` is overwritten; all have one size. */
