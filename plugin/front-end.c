@@ -50,9 +50,10 @@ const CeldPicture celd_pictures_stacked[CELD_POPUP_PICTURES] = {
 
 /* Matcaps need a picture, which these dialogs do not ask for. */
 const CeldMainSetting celd_main_settings[CELD_N_MAIN_SETTINGS] = {
-  { "light-model", N_ ("Light"), CELD_MODEL_MATCAP }, { "light-azimuth", "Light", 0 }, { "light-elevation", "Light", 0 },
-  { "ambient", "Light", 0 }, { "specular", "Light", 0 }, { "rim-light", "Light", 0 }, { "bulge", "Light", 0 },
-  { "shadow-strength", "Shadows", 0 }, { "shadow-size", "Shadows", 0 },
+  { "light-model", N_ ("Light"), CELD_MODEL_MATCAP }, { "toon-steps", "Light", 0 }, { "light-azimuth", "Light", 0 },
+  { "light-elevation", "Light", 0 }, { "ambient", "Light", 0 }, { "specular", "Light", 0 },
+  { "rim-light", "Light", 0 }, { "bulge", "Light", 0 }, { "bevel", "Light", 0 },
+  { "shadow-strength", "Shadows", 0 }, { "shadow-size", "Shadows", 0 }, { "shadow-offset", "Shadows", 0 },
   { "ink", N_ ("How layers are read"), 0 }, { "close-gaps", "How layers are read", 0 },
   { "flats", "How layers are read", 0 }, { "expansion", "How layers are read", 0 },
   { "suggest", "How layers are read", 0 },
@@ -133,6 +134,17 @@ celd_setting_read (const char *name, const char *value, CeldSettings *settings, 
   return TRUE;
 }
 
+static gboolean
+read_preset (const char *name, CeldSettings *settings, GError **error)
+{
+  const CeldPreset *preset = celd_preset_find (name);
+
+  if (!preset)
+    return fail (error, _ ("There is no preset \"%s\".%s"), name, "");
+  celd_preset_fill (preset, settings);
+  return TRUE;
+}
+
 gboolean
 celd_settings_read (const char *text, CeldSettings *settings, GError **error)
 {
@@ -147,7 +159,8 @@ celd_settings_read (const char *text, CeldSettings *settings, GError **error)
         if (value)
           {
             *value = 0;
-            good   = celd_setting_read (word[i], value + 1, settings, error);
+            good   = !strcmp (word[i], "preset") ? read_preset (value + 1, settings, error)
+                                                 : celd_setting_read (word[i], value + 1, settings, error);
           }
         else
           good = fail (error, _ ("\"%s\" is no setting: settings are NAME=VALUE.%s"), word[i], "");

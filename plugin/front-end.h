@@ -8,6 +8,7 @@
 #include <glib.h>
 
 #include "pipeline.h"
+#include "presets.h"
 
 /* The name of the argument for the layer of a role, "scribbles", and what is on that layer. */
 extern const char *const celd_layer_arguments[CELD_N_LAYERS];
@@ -40,14 +41,14 @@ gboolean celd_pictures_read (const char *text, guint *wanted, GError **error);
 /* The settings of core that a short dialog shows, under headings; `choices` is the number of choices, 0: all. */
 typedef struct { const char *name, *heading; int choices; } CeldMainSetting;
 
-#define CELD_N_MAIN_SETTINGS 14
+#define CELD_N_MAIN_SETTINGS 17
 extern const CeldMainSetting celd_main_settings[CELD_N_MAIN_SETTINGS];
 
 /* Sets a setting of any name from a text: a number, a choice, or yes, no, true or false.  FALSE and *error if that
  * makes no sense; then nothing is changed. */
 gboolean celd_setting_read (const char *name, const char *value, CeldSettings *settings, GError **error);
 
-/* Sets settings as the text of a script, "light-azimuth=90 bulge=0.5".  NULL is an empty text. */
+/* Sets settings as the text of a script, "light-azimuth=90 bulge=0.5", or "preset=cel".  NULL is an empty text. */
 gboolean celd_settings_read (const char *text, CeldSettings *settings, GError **error);
 
 #endif

@@ -72,6 +72,7 @@ typedef struct
   bool         background_colour; /* whether a background colour was given */
   CeldSettings settings;
   GPtrArray   *offered;    /* the options that are settings, for options-settings.c */
+  char        *preset_names; /* of --preset, as --help shows them */
 } CliOptions;
 
 typedef struct

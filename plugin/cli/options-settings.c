@@ -5,6 +5,8 @@
  */
 #include "options.h"
 
+#include "presets.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -208,6 +210,42 @@ take_setting (const char *name, const char *text, gpointer data, GError **error)
   return FALSE;
 }
 
+/* ------------------------------------------------------------------ presets */
+
+static gboolean
+take_preset (const char *name, const char *text, gpointer data, GError **error)
+{
+  CliOptions       *options = data;
+  const CeldPreset *preset = celd_preset_find (text);
+  GString          *names;
+
+  if (preset)
+    {
+      celd_preset_fill (preset, &options->settings);
+      return TRUE;
+    }
+  names = g_string_new (NULL);
+  for (int i = 0; i < CELD_N_PRESETS; i++)
+    g_string_append_printf (names, "%s%s", !i ? "" : i + 1 < CELD_N_PRESETS ? ", " : " or ", celd_presets[i].name);
+  g_set_error (error, G_OPTION_ERROR, G_OPTION_ERROR_BAD_VALUE, "%s must be %s, not '%s'.", name, names->str, text);
+  g_string_free (names, TRUE);
+  return FALSE;
+}
+
+static void
+append_preset (CliOptions *options, CliOptionList *list)
+{
+  GString *names = g_string_new (celd_presets[0].name);
+
+  for (int i = 1; i < CELD_N_PRESETS; i++)
+    g_string_append_printf (names, "|%s", celd_presets[i].name);
+  options->preset_names = g_string_free (names, FALSE);
+  cli_list_add (list, "Light", (GOptionEntry) {
+    "preset", 0, 0, G_OPTION_ARG_CALLBACK, (gpointer) take_preset,
+    "settings of light and shadows that go together; those that are given as well count more (default: everyday)",
+    options->preset_names });
+}
+
 /* ------------------------------------------------------------------ the options */
 
 static SettingOption *
@@ -241,11 +279,14 @@ cli_settings_append (const CliCommand *command, CliOptions *options, CliOptionLi
         G_OPTION_ARG_CALLBACK, (gpointer) take_setting, option->help, option->values });
     }
   g_strfreev (words);
+  if (command->step == CLI_POPUP)
+    append_preset (options, list);
 }
 
 void
 cli_settings_clear (CliOptions *options)
 {
+  g_free (options->preset_names);
   if (options->offered)
     g_ptr_array_unref (options->offered);
 }

@@ -11,12 +11,15 @@
 #define SCALE 150
 #define NO_LAYER (-1)
 
+/* The choices, and the widgets of settings and pictures, which a preset changes. */
+typedef struct { CeldChoices *choices; GPtrArray *widgets; GtkWidget *presets; gboolean busy; } Dialog;
+
 /* ------------------------------------------------------------------ what changes choices */
 
 static void
 picture_toggled (GtkToggleButton *button, gpointer data)
 {
-  CeldChoices *choices = data;
+  CeldChoices *choices = ((Dialog *) data)->choices;
   guint        bit = GPOINTER_TO_UINT (g_object_get_data (G_OBJECT (button), "bit"));
 
   choices->wanted = gtk_toggle_button_get_active (button) ? choices->wanted | bit : choices->wanted & ~bit;
@@ -28,30 +31,81 @@ row_of (gpointer widget)
   return g_object_get_data (G_OBJECT (widget), "row");
 }
 
+/* Shows which preset the settings are. */
+static void
+show_preset (Dialog *dialog)
+{
+  const CeldPreset *preset = celd_preset_of (&dialog->choices->settings);
+
+  dialog->busy = TRUE;
+  gimp_int_combo_box_set_active (GIMP_INT_COMBO_BOX (dialog->presets),
+                                 preset ? (int) (preset - celd_presets) : CELD_N_PRESETS);
+  dialog->busy = FALSE;
+}
+
+/* Unless a preset is being shown, widget by widget. */
+static void
+set_setting (gpointer widget, double value, Dialog *dialog)
+{
+  if (dialog->busy)
+    return;
+  celd_setting_set (row_of (widget), value, &dialog->choices->settings);
+  show_preset (dialog);
+}
+
 static void
 number_changed (GtkAdjustment *adjustment, gpointer data)
 {
-  CeldChoices *choices = data;
-
-  celd_setting_set (row_of (adjustment), gtk_adjustment_get_value (adjustment), &choices->settings);
+  set_setting (adjustment, gtk_adjustment_get_value (adjustment), data);
 }
 
 static void
 switch_toggled (GtkToggleButton *button, gpointer data)
 {
-  CeldChoices *choices = data;
-
-  celd_setting_set (row_of (button), gtk_toggle_button_get_active (button), &choices->settings);
+  set_setting (button, gtk_toggle_button_get_active (button), data);
 }
 
 static void
 choice_changed (GtkWidget *combo, gpointer data)
 {
-  CeldChoices *choices = data;
-  int          value;
+  int value;
 
   if (gimp_int_combo_box_get_active (GIMP_INT_COMBO_BOX (combo), &value))
-    celd_setting_set (row_of (combo), value, &choices->settings);
+    set_setting (combo, value, data);
+}
+
+/* Shows a setting, or a picture that is made. */
+static void
+show_widget (gpointer widget, gpointer data)
+{
+  const CeldChoices     *choices = ((Dialog *) data)->choices;
+  const CeldSettingInfo *row = row_of (widget);
+  double                 value = row ? celd_setting_get (row, &choices->settings) : 0;
+  guint                  bit = GPOINTER_TO_UINT (g_object_get_data (G_OBJECT (widget), "bit"));
+
+  if (GTK_IS_ADJUSTMENT (widget))
+    gtk_adjustment_set_value (GTK_ADJUSTMENT (widget), value);
+  else if (GIMP_IS_INT_COMBO_BOX (widget))
+    gimp_int_combo_box_set_active (GIMP_INT_COMBO_BOX (widget), (int) value);
+  else
+    gtk_toggle_button_set_active (GTK_TOGGLE_BUTTON (widget), row ? value != 0 : (choices->wanted & bit) != 0);
+}
+
+static void
+preset_chosen (GtkWidget *combo, gpointer data)
+{
+  Dialog *dialog = data;
+  guint   shown = 0;
+  int     i;
+
+  if (dialog->busy || !gimp_int_combo_box_get_active (GIMP_INT_COMBO_BOX (combo), &i) || i == CELD_N_PRESETS)
+    return;
+  celd_preset_choose (&celd_presets[i], &dialog->choices->settings);
+  celd_pictures_read (celd_presets[i].picture, &shown, NULL);
+  dialog->choices->wanted |= shown;
+  dialog->busy = TRUE;
+  g_ptr_array_foreach (dialog->widgets, show_widget, dialog);
+  dialog->busy = FALSE;
 }
 
 static void
@@ -74,7 +128,7 @@ relations_changed (GtkEntry *entry, gpointer data)
 /* ------------------------------------------------------------------ widgets */
 
 static GtkWidget *
-pictures_frame (CeldChoices *choices)
+pictures_frame (Dialog *dialog)
 {
   GtkWidget *frame = gimp_frame_new (_ ("Make")), *table = gtk_table_new ((CELD_POPUP_PICTURES + 1) / 2, 2, TRUE);
 
@@ -85,9 +139,10 @@ pictures_frame (CeldChoices *choices)
       GtkWidget             *button = gtk_check_button_new_with_mnemonic (_ (info->label));
 
       gimp_help_set_help_data (button, _ (info->help), NULL);
-      gtk_toggle_button_set_active (GTK_TOGGLE_BUTTON (button), (choices->wanted & 1u << picture) != 0);
+      gtk_toggle_button_set_active (GTK_TOGGLE_BUTTON (button), (dialog->choices->wanted & 1u << picture) != 0);
       g_object_set_data (G_OBJECT (button), "bit", GUINT_TO_POINTER (1u << picture));
-      g_signal_connect (button, "toggled", G_CALLBACK (picture_toggled), choices);
+      g_signal_connect (button, "toggled", G_CALLBACK (picture_toggled), dialog);
+      g_ptr_array_add (dialog->widgets, button);
       gtk_table_attach_defaults (GTK_TABLE (table), button, i % 2, i % 2 + 1, i / 2, i / 2 + 1);
     }
   gtk_container_add (GTK_CONTAINER (frame), table);
@@ -95,19 +150,20 @@ pictures_frame (CeldChoices *choices)
 }
 
 static void
-add_number (GtkTable *table, int line, const CeldSettingInfo *row, CeldChoices *choices)
+add_number (GtkTable *table, int line, const CeldSettingInfo *row, Dialog *dialog)
 {
   GtkObject *adjustment = gimp_scale_entry_new (table, 0, line, _ (row->label), SCALE, 6,
-                                                celd_setting_get (row, &choices->settings), row->shown.least,
+                                                celd_setting_get (row, &dialog->choices->settings), row->shown.least,
                                                 row->shown.most, row->shown.step, row->shown.page,
                                                 (guint) row->shown.digits, TRUE, 0, 0, _ (row->help), NULL);
 
   g_object_set_data (G_OBJECT (adjustment), "row", (gpointer) row);
-  g_signal_connect (adjustment, "value-changed", G_CALLBACK (number_changed), choices);
+  g_signal_connect (adjustment, "value-changed", G_CALLBACK (number_changed), dialog);
+  g_ptr_array_add (dialog->widgets, adjustment);
 }
 
 static void
-add_choice (GtkTable *table, int line, const CeldSettingInfo *row, int n, CeldChoices *choices)
+add_choice (GtkTable *table, int line, const CeldSettingInfo *row, int n, Dialog *dialog)
 {
   GtkWidget *combo = g_object_new (GIMP_TYPE_INT_COMBO_BOX, NULL);
 
@@ -115,27 +171,29 @@ add_choice (GtkTable *table, int line, const CeldSettingInfo *row, int n, CeldCh
     gimp_int_combo_box_append (GIMP_INT_COMBO_BOX (combo), GIMP_INT_STORE_VALUE, i, GIMP_INT_STORE_LABEL,
                                _ (row->choice[i].label), -1);
   g_object_set_data (G_OBJECT (combo), "row", (gpointer) row);
-  gimp_int_combo_box_connect (GIMP_INT_COMBO_BOX (combo), (int) celd_setting_get (row, &choices->settings),
-                              G_CALLBACK (choice_changed), choices);
+  gimp_int_combo_box_connect (GIMP_INT_COMBO_BOX (combo), (int) celd_setting_get (row, &dialog->choices->settings),
+                              G_CALLBACK (choice_changed), dialog);
+  g_ptr_array_add (dialog->widgets, combo);
   gimp_help_set_help_data (combo, _ (row->help), NULL);
   gimp_table_attach_aligned (table, 0, line, _ (row->label), 0, 0.5, combo, 2, FALSE);
 }
 
 static void
-add_switch (GtkTable *table, int line, const CeldSettingInfo *row, CeldChoices *choices)
+add_switch (GtkTable *table, int line, const CeldSettingInfo *row, Dialog *dialog)
 {
   GtkWidget *button = gtk_check_button_new_with_label (_ (row->label));
 
   g_object_set_data (G_OBJECT (button), "row", (gpointer) row);
-  gtk_toggle_button_set_active (GTK_TOGGLE_BUTTON (button), celd_setting_get (row, &choices->settings) != 0);
-  g_signal_connect (button, "toggled", G_CALLBACK (switch_toggled), choices);
+  gtk_toggle_button_set_active (GTK_TOGGLE_BUTTON (button), celd_setting_get (row, &dialog->choices->settings) != 0);
+  g_signal_connect (button, "toggled", G_CALLBACK (switch_toggled), dialog);
+  g_ptr_array_add (dialog->widgets, button);
   gimp_help_set_help_data (button, _ (row->help), NULL);
   gtk_table_attach_defaults (table, button, 0, 3, (guint) line, (guint) line + 1);
 }
 
 /* A frame with the settings of one heading, which begin at *i. */
 static GtkWidget *
-settings_frame (int *i, CeldChoices *choices)
+settings_frame (int *i, Dialog *dialog)
 {
   const char *heading = celd_main_settings[*i].heading;
   GtkWidget  *frame = gimp_frame_new (_ (heading)), *table = gtk_table_new (1, 3, FALSE);
@@ -148,13 +206,30 @@ settings_frame (int *i, CeldChoices *choices)
 
       if (row->type == CELD_SETTING_CHOICE)
         add_choice (GTK_TABLE (table), line, row,
-                    celd_main_settings[*i].choices ? celd_main_settings[*i].choices : (int) row->choices, choices);
+                    celd_main_settings[*i].choices ? celd_main_settings[*i].choices : (int) row->choices, dialog);
       else if (row->type == CELD_SETTING_SWITCH)
-        add_switch (GTK_TABLE (table), line, row, choices);
+        add_switch (GTK_TABLE (table), line, row, dialog);
       else
-        add_number (GTK_TABLE (table), line, row, choices);
+        add_number (GTK_TABLE (table), line, row, dialog);
     }
   gtk_container_add (GTK_CONTAINER (frame), table);
+  return frame;
+}
+
+static GtkWidget *
+presets_frame (Dialog *dialog)
+{
+  GtkWidget *frame = gimp_frame_new (_ ("Look")), *combo = dialog->presets;
+
+  for (int i = 0; i < CELD_N_PRESETS; i++)
+    gimp_int_combo_box_append (GIMP_INT_COMBO_BOX (combo), GIMP_INT_STORE_VALUE, i, GIMP_INT_STORE_LABEL,
+                               _ (celd_presets[i].label), -1);
+  gimp_int_combo_box_append (GIMP_INT_COMBO_BOX (combo), GIMP_INT_STORE_VALUE, CELD_N_PRESETS, GIMP_INT_STORE_LABEL,
+                             _ (celd_own_settings_label), -1);
+  gimp_help_set_help_data (combo, _ ("Settings of light and shadows that go together, and may be changed below"), NULL);
+  show_preset (dialog);
+  g_signal_connect (combo, "changed", G_CALLBACK (preset_chosen), dialog);
+  gtk_container_add (GTK_CONTAINER (frame), combo);
   return frame;
 }
 
@@ -212,18 +287,23 @@ layers_frame (gint32 image, CeldChoices *choices)
 gboolean
 celd_dialog_run (gint32 image, CeldChoices *choices)
 {
-  GtkWidget *dialog, *box = gtk_vbox_new (FALSE, 2 * SPACE);
+  Dialog     widgets = { choices, g_ptr_array_new (), NULL, FALSE };
+  GtkWidget *dialog, *box;
   gboolean   go;
 
   gimp_ui_init ("celdepth", FALSE);
-  dialog = gimp_dialog_new (_ ("Pop-up"), "celdepth", NULL, 0, gimp_standard_help_func, "plug-in-celdepth-popup",
-                            _ ("_Cancel"), GTK_RESPONSE_CANCEL, _ ("_Make"), GTK_RESPONSE_OK, NULL);
+  box             = gtk_vbox_new (FALSE, 2 * SPACE);
+  widgets.presets = g_object_new (GIMP_TYPE_INT_COMBO_BOX, NULL);
+  dialog          = gimp_dialog_new (_ ("Pop-up"), "celdepth", NULL, 0, gimp_standard_help_func,
+                                     "plug-in-celdepth-popup", _ ("_Cancel"), GTK_RESPONSE_CANCEL, _ ("_Make"),
+                                     GTK_RESPONSE_OK, NULL);
   gtk_dialog_set_default_response (GTK_DIALOG (dialog), GTK_RESPONSE_OK);
   gtk_container_set_border_width (GTK_CONTAINER (box), 2 * SPACE);
   gtk_box_pack_start (GTK_BOX (box), layers_frame (image, choices), FALSE, FALSE, 0);
-  gtk_box_pack_start (GTK_BOX (box), pictures_frame (choices), FALSE, FALSE, 0);
+  gtk_box_pack_start (GTK_BOX (box), pictures_frame (&widgets), FALSE, FALSE, 0);
+  gtk_box_pack_start (GTK_BOX (box), presets_frame (&widgets), FALSE, FALSE, 0);
   for (int i = 0; i < CELD_N_MAIN_SETTINGS;)
-    gtk_box_pack_start (GTK_BOX (box), settings_frame (&i, choices), FALSE, FALSE, 0);
+    gtk_box_pack_start (GTK_BOX (box), settings_frame (&i, &widgets), FALSE, FALSE, 0);
   gtk_box_pack_start (GTK_BOX (box), relations_frame (choices), FALSE, FALSE, 0);
   gtk_container_add (GTK_CONTAINER (gtk_dialog_get_content_area (GTK_DIALOG (dialog))), box);
   gtk_widget_show_all (dialog);
@@ -231,5 +311,6 @@ celd_dialog_run (gint32 image, CeldChoices *choices)
   gtk_widget_grab_focus (gtk_dialog_get_widget_for_response (GTK_DIALOG (dialog), GTK_RESPONSE_OK));
   go = gimp_dialog_run (GIMP_DIALOG (dialog)) == GTK_RESPONSE_OK;
   gtk_widget_destroy (dialog);
+  g_ptr_array_free (widgets.widgets, TRUE);
   return go;
 }

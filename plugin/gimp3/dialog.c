@@ -241,7 +241,8 @@ fill_popup (GimpProcedureDialog *dialog, GimpProcedureConfig *config, GimpImage 
   fill_light (dialog, config);
   fill_shadows (dialog, config);
   set_sensitivity (dialog, config);
-  gimp_procedure_dialog_fill (dialog, "pictures-frame", "light", "shadows", "reading", NULL);
+  celd_preset_follow (config);
+  gimp_procedure_dialog_fill (dialog, "pictures-frame", "preset", "light", "shadows", "reading", NULL);
 }
 
 static void

@@ -3,6 +3,7 @@
  *   main.c       the plug-in, and the table of its procedures
  *   layers.c     layers of an image, by their names
  *   settings.c   arguments made from the table of settings, and settings remembered with an image
+ *   presets.c    presets of settings
  *   paths.c      paths that are arrows
  *   files.c      files that are written
  *   results.c    the group with the results
@@ -127,6 +128,7 @@ gboolean celd_has_argument (GimpProcedureConfig *config, const char *name);
 
 /* What was chosen: the settings, and the pictures as bits. */
 CeldSettings celd_settings_chosen (GimpProcedureConfig *config);
+void         celd_settings_put    (GimpProcedureConfig *config, const CeldSettings *settings); /* those of presets */
 guint        celd_pictures_chosen (GimpProcedureConfig *config);
 void         celd_layers_chosen   (GimpProcedureConfig *config, GimpLayer *layer[CELD_N_LAYERS]); /* borrowed */
 
@@ -134,6 +136,14 @@ void         celd_layers_chosen   (GimpProcedureConfig *config, GimpLayer *layer
  * found by their names are kept, too; layers are always set. */
 void celd_settings_remember (GimpImage *image, GimpProcedureConfig *config, gboolean undoable);
 void celd_settings_recall   (GimpImage *image, GimpProcedureConfig *config);
+
+/* ------------------------------------------------------------------ presets.c */
+
+/* The argument "preset"; what it says for a script; and the choice of a dialog, which sets the other arguments, and
+ * shows whether they still are those of a preset. */
+void celd_preset_add_argument (GimpProcedure *procedure);
+void celd_preset_apply        (GimpProcedureConfig *config);
+void celd_preset_follow       (GimpProcedureConfig *config);
 
 /* ------------------------------------------------------------------ results.c */
 

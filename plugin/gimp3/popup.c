@@ -47,6 +47,7 @@ static void
 add_arguments (GimpProcedure *procedure)
 {
   celd_settings_add_arguments (procedure, CELD_FOR_POPUP);
+  celd_preset_add_argument (procedure);
   gimp_procedure_add_group_layer_return_value (procedure, "group", "Group", "The group with the results", FALSE,
                                                G_PARAM_READWRITE);
 }

@@ -215,6 +215,15 @@ recall (const CeldProcedure *p, GimpImage *image, GimpProcedureConfig *config)
     celd_file_recall (image, config, p);
 }
 
+/* Fills in what a script left out. */
+static void
+read_arguments (GimpImage *image, GimpProcedureConfig *config)
+{
+  find_layers (image, config);
+  if (celd_has_argument (config, "preset"))
+    celd_preset_apply (config);
+}
+
 GimpValueArray *
 celd_run (GimpProcedure *procedure, GimpRunMode run_mode, GimpImage *image, GimpDrawable **drawables,
           GimpProcedureConfig *config, gpointer run_data)
@@ -230,7 +239,7 @@ celd_run (GimpProcedure *procedure, GimpRunMode run_mode, GimpImage *image, Gimp
   if (!celd_image_check (image, &error))
     return gimp_procedure_new_return_values (procedure, GIMP_PDB_CALLING_ERROR, error);
   if (script)
-    find_layers (image, config);
+    read_arguments (image, config);
   else
     recall (p, image, config);
   if (run_mode == GIMP_RUN_INTERACTIVE && !celd_dialog_run (procedure, config, image, p))

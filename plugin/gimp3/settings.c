@@ -168,6 +168,25 @@ celd_settings_chosen (GimpProcedureConfig *config)
 }
 
 void
+celd_settings_put (GimpProcedureConfig *config, const CeldSettings *settings)
+{
+  for (gsize i = 0; i < G_N_ELEMENTS (offered); i++)
+    {
+      const CeldSettingInfo *row = celd_setting_find (offered[i].name);
+      double                 value = celd_setting_get (row, settings);
+
+      if (!celd_preset_covers (row->name) || !celd_has_argument (config, row->name))
+        continue;
+      if (row->type == CELD_SETTING_NUMBER)
+        g_object_set (config, row->name, value, NULL);
+      else if (row->type == CELD_SETTING_CHOICE)
+        g_object_set (config, row->name, row->choice[(int) value].nick, NULL);
+      else
+        g_object_set (config, row->name, (int) value, NULL);
+    }
+}
+
+void
 celd_file_add_argument (GimpProcedure *procedure, const char *help)
 {
   gimp_procedure_add_file_argument (procedure, "file", _ ("F_ile"), help, GIMP_FILE_CHOOSER_ACTION_SAVE, TRUE, NULL,

@@ -64,16 +64,16 @@ write_pictures (void)
   printf ("]\n");
 }
 
-/* The default, as the command takes it. */
+/* A value, as the command takes it; float has seven digits. */
 static void
-write_usual (const CeldSettingInfo *row)
+write_value (const CeldSettingInfo *row, double value)
 {
   if (row->type == CELD_SETTING_SWITCH)
-    write_text (row->usual != 0 ? "yes" : "no");
+    write_text (value != 0 ? "yes" : "no");
   else if (row->type == CELD_SETTING_CHOICE)
-    write_text (row->choice[(int) row->usual].nick);
+    write_text (row->choice[(int) value].nick);
   else
-    printf ("%.10g, ", row->usual);
+    printf ("%.7g, ", value);
 }
 
 static void
@@ -86,7 +86,7 @@ write_setting (const CeldMainSetting *setting)
   write_text (setting->heading);
   write_text (row->label);
   write_text (row->help);
-  write_usual (row);
+  write_value (row, row->usual);
   printf ("%.10g, %.10g, %.10g, %d, ", row->shown.least, row->shown.most, row->shown.step, row->shown.digits);
   write_text (row->unit);
   printf ("[");
@@ -108,18 +108,48 @@ write_setting (const CeldMainSetting *setting)
   printf ("]),\n");
 }
 
+/* The value of a setting, as the command takes it. */
+static void
+write_preset (const CeldPreset *preset)
+{
+  CeldSettings settings = celd_settings ();
+
+  printf ("    Preset(");
+  write_text (preset->name);
+  write_text (preset->label);
+  write_text (preset->help);
+  write_text (preset->picture);
+  printf ("{");
+  celd_preset_choose (preset, &settings);
+  for (int i = 0; i < CELD_N_MAIN_SETTINGS; i++)
+    if (celd_preset_covers (celd_main_settings[i].name))
+      {
+        const CeldSettingInfo *row = celd_setting_find (celd_main_settings[i].name);
+
+        write_string (row->name);
+        printf (": ");
+        write_value (row, celd_setting_get (row, &settings));
+      }
+  printf ("}),\n");
+}
+
 int
 main (void)
 {
   setlocale (LC_NUMERIC, "C");
   printf ("\"\"\"What is offered: made by write-tables from the tables of plugin/ and core/.\"\"\"\n"
-          "from .kinds import Layer, Picture, Setting\n\n");
+          "from .kinds import Layer, Picture, Preset, Setting\n\n");
   write_layers ();
   write_pictures ();
   printf ("SETTINGS = [\n");
   for (int i = 0; i < CELD_N_MAIN_SETTINGS; i++)
     write_setting (&celd_main_settings[i]);
-  printf ("]\nGROUP_NAME = ");
+  printf ("]\nPRESETS = [\n");
+  for (int i = 0; i < CELD_N_PRESETS; i++)
+    write_preset (&celd_presets[i]);
+  printf ("]\nOWN_LABEL = ");
+  write_string (celd_own_settings_label);
+  printf ("\nGROUP_NAME = ");
   write_string (CELD_GROUP_NAME);
   printf ("\n");
   return ferror (stdout) ? 1 : 0;

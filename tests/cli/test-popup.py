@@ -66,6 +66,24 @@ class OneRun(Test):
         for place, colour in FILLS.items():
             np.testing.assert_allclose(at(self.picture('flat.png'), place)[:3].astype(int), colour, atol=1)
 
+    def test_presets(self):
+        """The same as their settings one by one; those that are given count more, before and behind."""
+        def lit(name, *words):
+            self.celdepth('popup', *INPUT, '--shaded', name + '.png', '--enhanced', name + '-enhanced.png', *words)
+            return self.picture(name + '.png').astype(int), self.picture(name + '-enhanced.png').astype(int)
+        usual, cel = lit('usual'), lit('cel', '--preset', 'cel')
+        np.testing.assert_array_equal(lit('everyday', '--preset=everyday'), usual)
+        np.testing.assert_array_equal(
+            lit('toon', '--light-model', 'toon', '--toon-steps', '2', '--ambient', '0.5'), cel)
+        np.testing.assert_array_equal(lit('before', '--ambient', '0.3', '--preset', 'cel'),
+                                      lit('behind', '--preset', 'cel', '--ambient', '0.3'))
+        changed = {name: [np.abs(made - was).max() for made, was in zip(lit(name, '--preset', name), usual)]
+                   for name in ('cel', 'balloon', 'relief', 'paper')}
+        self.assertTrue(all(lit_one > 30 for lit_one, _ in changed.values()), changed)
+        self.assertGreater(changed['paper'][1], 30)
+        self.assertIn("--preset must be everyday, cel, balloon, relief or paper, not 'nonsense'.",
+                      self.celdepth('popup', *INPUT, '--shaded', 'no.png', '--preset', 'nonsense', code=2))
+
     def test_other_colours(self):
         """--colours is the art in place of the drawing."""
         drawing().save(self.path('lines.png'))

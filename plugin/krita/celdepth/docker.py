@@ -7,7 +7,7 @@ from itertools import groupby
 from typing import Callable, Dict, List, Optional
 
 from krita import DockWidget, Document, Krita
-from PyQt5.QtCore import Qt
+from PyQt5.QtCore import Qt, pyqtBoundSignal
 from PyQt5.QtWidgets import (QCheckBox, QComboBox, QDoubleSpinBox, QFormLayout, QGridLayout, QGroupBox, QHBoxLayout,
                              QLineEdit, QPlainTextEdit, QProgressBar, QPushButton, QScrollArea, QVBoxLayout, QWidget)
 
@@ -15,7 +15,7 @@ from . import results
 from .kinds import Setting, Value
 from .language import _
 from .popup import Choices, Popup, Problem, set_up
-from .tables import PICTURES, SETTINGS
+from .tables import OWN_LABEL, PICTURES, PRESETS, SETTINGS
 
 # Of the command, as it calls them.
 STEPS = {'reading': _('reading'), 'ink': _('ink'), 'labels': _('labels'), 'order': _('order'), 'levels': _('levels'),
@@ -31,6 +31,7 @@ class Field:
         self.setting = setting
         self.get: Callable[[], Value]
         self.set: Callable[[Value], None]
+        self.changed: pyqtBoundSignal
         if setting.choices:
             self.make_box(QComboBox())
         else:
@@ -43,6 +44,7 @@ class Field:
             box.addItem(_(label), value)
         self.widget, self.get = box, box.currentData
         self.set = lambda value: box.setCurrentIndex(max(box.findData(value), 0))
+        self.changed = box.currentIndexChanged
 
     def make_number(self, box: QDoubleSpinBox) -> None:
         box.setDecimals(self.setting.digits)
@@ -50,6 +52,7 @@ class Field:
         box.setSingleStep(max(self.setting.step, (self.setting.most - self.setting.least) / 20))
         box.setSuffix('°' if self.setting.unit == 'degree' else '')
         self.widget, self.get, self.set = box, box.value, box.setValue
+        self.changed = box.valueChanged
 
 
 class Docker(DockWidget):
@@ -66,6 +69,7 @@ class Docker(DockWidget):
         column = QVBoxLayout(inner)
         column.addLayout(self.make_buttons())
         column.addWidget(self.make_pictures())
+        column.addWidget(self.make_presets())
         for heading, settings in groupby(SETTINGS, lambda setting: setting.heading):
             column.addWidget(self.make_settings(heading, list(settings)))
         column.addWidget(self.make_program())
@@ -112,6 +116,18 @@ class Docker(DockWidget):
             grid.addWidget(tick, i // 2, i % 2)
         return box
 
+    def make_presets(self) -> QGroupBox:
+        box = QGroupBox(_('Look'))
+        form = QVBoxLayout(box)
+        self.presets = QComboBox()
+        for preset in PRESETS:
+            self.presets.addItem(_(preset.label))
+        self.presets.addItem(_(OWN_LABEL))
+        self.presets.setToolTip(_('Settings of light and shadows that go together, and may be changed below') + '.')
+        self.presets.activated.connect(self.choose_preset)
+        form.addWidget(self.presets)
+        return box
+
     def make_settings(self, heading: str, settings: List[Setting]) -> QGroupBox:
         box = QGroupBox(_(heading))
         form = QFormLayout(box)
@@ -120,6 +136,7 @@ class Docker(DockWidget):
         for setting in settings:
             field = self.fields[setting.name] = Field(setting)
             field.widget.setMinimumWidth(60)
+            field.changed.connect(self.show_preset)
             form.addRow(_(setting.label), field.widget)
         return box
 
@@ -134,6 +151,20 @@ class Docker(DockWidget):
 
     # ------------------------------------------------------------------ choices
 
+    def choose_preset(self, index: int) -> None:
+        if index < len(PRESETS):
+            preset = PRESETS[index]
+            for name, value in preset.settings.items():
+                self.fields[name].set(value)
+            if preset.picture:
+                self.ticks[preset.picture].setChecked(True)
+
+    def show_preset(self, *_value: object) -> None:
+        """The one that the settings are, or that they are the artist's own."""
+        own = {name: field.get() for name, field in self.fields.items()}
+        fits = [all(own.get(name) == value for name, value in preset.settings.items()) for preset in PRESETS]
+        self.presets.setCurrentIndex((fits + [True]).index(True))
+
     def choices(self) -> Choices:
         return Choices([p.name for p in PICTURES if self.ticks[p.name].isChecked()],
                        {name: field.get() for name, field in self.fields.items()})
@@ -143,6 +174,7 @@ class Docker(DockWidget):
             tick.setChecked(name in choices.pictures)
         for name, field in self.fields.items():
             field.set(choices.settings[name])
+        self.show_preset()
 
     def kept_choices(self) -> Choices:
         """Those of the last run in any document."""

@@ -2,7 +2,7 @@
 
 SPDX-License-Identifier: LGPL-3.0-or-later
 """
-from typing import List, NamedTuple, Tuple, Union
+from typing import Dict, List, NamedTuple, Tuple, Union
 
 Value = Union[float, str]   # of a setting, as the command takes it
 
@@ -38,3 +38,12 @@ class Setting(NamedTuple):
     digits: int
     unit: str
     choices: List[Tuple[str, str]]  # value and label; none: it is a number
+
+
+class Preset(NamedTuple):
+    """Settings that go together."""
+    name: str
+    label: str
+    help: str
+    picture: str                # the name of the one that shows it; empty: those made by default do
+    settings: Dict[str, Value]  # all that are in some preset

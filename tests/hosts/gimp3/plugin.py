@@ -164,6 +164,21 @@ def layers_found_by_name_are_found_again():
     image.delete()
 
 
+def presets_are_those_of_the_command():
+    image = open_people(8)
+    good, group, message = pop_up(image, ['lit'], preset='cel', ambient=0.4)
+    check(good, f'a script can name a preset {message}')
+    found = pixels(results(group)['lit'], "R'G'B' float", np.float32, 3)
+    wanted = np.array(Image.open(os.path.join(OUT, 'cel-lit.png')).convert('RGB')) / 255
+    difference = np.abs(found - wanted).max()
+    check(difference <= ERRORS[8] + 1e-6, f'lit by a preset differs by {difference:.2e}')
+    kept = bytes(image.get_parasite('celdepth-popup').get_data()).decode()
+    check('light-model=toon\n' in kept and 'ambient=0.4' in kept, 'its settings are kept, and those that count more')
+    good, group, message = pop_up(image, ['lit'], preset='paper')
+    check(good and sorted(results(group)) == ['enhanced', 'lit'], f'Cut paper also makes what shows it {message}')
+    image.delete()
+
+
 def colour(rgb):
     return '#%02x%02x%02x' % tuple(rgb)
 
@@ -242,6 +257,7 @@ copies_are_the_artists()
 input_without_sense_is_refused()
 layers_can_be_named_by_a_script()
 layers_found_by_name_are_found_again()
+presets_are_those_of_the_command()
 layers_are_the_drawing_again()
 suggestions_are_arrows()
 set_up_layers_makes_what_is_missing()

@@ -291,6 +291,24 @@ def check_german():
     document.close()
 
 
+def check_presets():
+    """Each sets the fields, shows itself, and gives way to the artist's own settings."""
+    panel = docker.Docker()
+    panel.show_choices(popup.Choices.usual())
+    check(panel.presets.currentText() == 'Everyday', f'the defaults are a preset: {panel.presets.currentText()}')
+    for index in (2, 4, 1):
+        panel.presets.setCurrentIndex(index)
+        panel.presets.activated.emit(index)
+        check(panel.presets.currentIndex() == index, f'{panel.presets.currentText()} stays chosen')
+    words = panel.choices().words()
+    check(words == ['--light-model=toon', '--toon-steps=2.0', '--ambient=0.5'], f'Cel animation: {words}')
+    check(panel.ticks['enhanced'].isChecked(), 'Cut paper has ticked the picture that shows it')
+    panel.fields['bulge'].set(0.5)
+    check(panel.presets.currentText() == 'Own settings', 'a setting of a preset was changed')
+    panel.fields['bulge'].set(1.0)
+    check(panel.presets.currentText() == 'Cel animation', 'and set back')
+
+
 def german(_arguments=None):
     try:
         check_german()
@@ -310,6 +328,7 @@ def main(_arguments=None):
         check_results('U8', 'sRGB-elle-V2-srgbtrc.icc').close()
         check_bad_input()
         check_set_up()
+        check_presets()
         keep_start()
         check(True, 'all checks were run')
     except Exception:  # pylint: disable=broad-except
