@@ -4,6 +4,7 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
+#include "problems.h"
 #include "properties.h"
 
 static const CeldSettingChoice results[] = {
@@ -183,7 +184,7 @@ pose (CeldOp *op, CeldPuppet *puppet)
          try_handles (op, celd_puppet_pose (puppet, handles.item, handles.n, &op->quiet, &report)) &&
          celd_op_report (op, &op->problems, NULL, NULL, NULL);
   celd_handles_clear (&handles);
-  celd_pose_text (&report, text, sizeof text);
+  celd_pose_text (&report, celd_in_language, text, sizeof text);
   return good && (!text[0] || celd_op_report_text (op, text));
 }
 

@@ -157,7 +157,7 @@ process (GeglOperation *operation, GeglBuffer *output, const GeglRectangle *roi,
   bool          colours = GEGL_PROPERTIES (operation)->content == CELD_LOAD_COLOURS;
   GeglRectangle all = get_bounding_box (operation);
   float        *pixels = g_try_malloc_n ((gsize) all.width * (gsize) all.height, (colours ? 4 : 1) * sizeof (float));
-  CeldIoError   error = { "There is not enough memory." };
+  CeldIoError   error = { .text = "There is not enough memory." };
   bool          read;
 
   read = pixels && (colours ? celd_io_read_colours (source->file, source->part, pixels, &error)

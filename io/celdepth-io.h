@@ -22,8 +22,9 @@
 extern "C" {
 #endif
 
-/* An English sentence that names the file and says what is wrong; set when a function fails. */
-typedef struct { char text[1024]; } CeldIoError;
+/* An English sentence that names the file and says what is wrong; set when a function fails.  What is wrong begins at
+ * text + reason, for hosts that say the rest in another language. */
+typedef struct { char text[1024]; size_t reason; } CeldIoError;
 
 /* ------------------------------------------------------------------ reading */
 

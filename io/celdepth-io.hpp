@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <cstring>
 #include <filesystem>
 #include <new>
 #include <stdexcept>
@@ -19,6 +20,8 @@
 // Attributes of headers from which the original values of stored numbers are computed.
 constexpr const char *note_farthest = "celdepth:farthest";
 constexpr const char *note_nearest  = "celdepth:nearest";
+
+#define N_(text) text // one that hosts translate, for xgettext
 
 // Its text is the part of a sentence that follows "Cannot read NAME: ".
 struct IoFailure : std::runtime_error
@@ -41,7 +44,7 @@ succeeds (std::string &why, Work work)
     }
   catch (const std::bad_alloc &)
     {
-      why = "there is not enough memory.";
+      why = N_ ("there is not enough memory.");
     }
   catch (const std::exception &exception)
     {
@@ -49,7 +52,7 @@ succeeds (std::string &why, Work work)
     }
   catch (...)
     {
-      why = "an unknown error occurred.";
+      why = N_ ("an unknown error occurred.");
     }
   while (!why.empty () && (why.back () == '\n' || why.back () == ' '))
     why.pop_back ();
@@ -67,6 +70,7 @@ guarded (const char *verb, const std::string &path, CeldIoError *error, Work wor
   if (succeeds (why, work))
     return true;
   std::snprintf (error->text, sizeof error->text, "Cannot %s \"%s\": %s", verb, path.c_str (), why.c_str ());
+  error->reason = std::min (std::string (error->text).size (), path.size () + std::strlen (verb) + sizeof "Cannot  \"\": " - 1);
   return false;
 }
 
@@ -85,7 +89,7 @@ public:
     if (std::filesystem::exists (final) && folder && !std::filesystem::is_empty (final))
       throw IoFailure ("it is a folder that is not empty.");
     if (std::filesystem::exists (final) && !folder && !std::filesystem::is_regular_file (final))
-      throw IoFailure ("it is not an ordinary file.");
+      throw IoFailure (N_ ("it is not an ordinary file."));
     temporary = final;
     temporary += ".new-" + std::to_string (getpid ());
     if (folder)

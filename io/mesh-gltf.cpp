@@ -252,7 +252,7 @@ write_gltf (const std::string &path, const Meshes &meshes, const CeldColours *ar
 
   json.append (round_up (json.size ()) - json.size (), ' ');
   if (l.end > UINT32_MAX - json.size () - 28)
-    throw IoFailure ("it would be larger than 4 GB. Allow fewer vertices.");
+    throw IoFailure (N_ ("it would be larger than 4 GB. Allow fewer vertices."));
   for (uint32_t number : { magic, version, uint32_t (28 + json.size () + l.end), uint32_t (json.size ()), json_chunk })
     writer.put (number);
   writer.put (json);

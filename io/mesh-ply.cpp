@@ -72,7 +72,7 @@ write_ply (const std::string &path, const Meshes &meshes, const CeldColours *art
                         "element vertex " + std::to_string (vertices) + "\n";
 
   if (vertices > INT32_MAX)
-    throw IoFailure ("PLY files cannot have so many vertices. Allow fewer vertices.");
+    throw IoFailure (N_ ("PLY files cannot have so many vertices. Allow fewer vertices."));
   for (const char *name : { "x", "y", "z", "nx", "ny", "nz", "s", "t" })
     header += std::string ("property float ") + name + "\n";
   for (const char *name : { "red", "green", "blue" })

@@ -51,7 +51,7 @@ write_stl (const std::string &path, const Meshes &meshes)
   const size_t triangles = count_triangles (meshes);
 
   if (triangles > UINT32_MAX)
-    throw IoFailure ("STL files cannot have so many triangles. Allow fewer vertices.");
+    throw IoFailure (N_ ("STL files cannot have so many triangles. Allow fewer vertices."));
   writer.put (header, sizeof header);
   writer.put (uint32_t (triangles));
   for (const CeldIoMesh &each : meshes)

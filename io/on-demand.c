@@ -38,6 +38,7 @@ find_module (char *path, size_t size)
 static bool
 refuse (CeldIoError *error, const char *why)
 {
+  error->reason = 0;
   snprintf (error->text, sizeof error->text, "Files can be neither read nor written, because celdepth's module for "
             "them cannot be used: %s. Install all files of celdepth together.", why);
   return false;

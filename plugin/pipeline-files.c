@@ -8,6 +8,12 @@
 #include "celdepth-io.h"
 #include "part-names.h"
 
+static gboolean
+fail_to_write (const char *path, const CeldIoError *why, GError **error)
+{
+  return celd_pipeline_fail (error, _ ("Cannot write \"%s\": %s"), path, _ (why->text + why->reason));
+}
+
 /* ------------------------------------------------------------------ depth */
 
 static gboolean
@@ -15,7 +21,7 @@ save_depth (const CeldPlane *depth, const char *path, GError **error)
 {
   CeldIoError why;
 
-  return celd_io_write_depth (path, depth, 0, 1, &why) || celd_pipeline_fail (error, "%s", why.text);
+  return celd_io_write_depth (path, depth, 0, 1, &why) || fail_to_write (path, &why, error);
 }
 
 gboolean
@@ -83,7 +89,7 @@ save_meshes (const char *path, const CeldIoMesh *mesh, gsize n, const CeldColour
 {
   CeldIoError why;
 
-  return celd_io_write_meshes (path, mesh, n, art, &why) || celd_pipeline_fail (error, "%s", why.text);
+  return celd_io_write_meshes (path, mesh, n, art, &why) || fail_to_write (path, &why, error);
 }
 
 static gboolean

@@ -7,6 +7,8 @@
 #include "buffers.h"
 #include "problems.h"
 
+#include <string.h>
+
 /* ------------------------------------------------------------------ writing pictures */
 
 static void
@@ -182,7 +184,7 @@ celd_pipeline_layer_name (const CeldPipeline *p, gsize layer)
   char name[40];
 
   celd_label_name (celd_session_palette (p->session), celd_layers_item (p->layers, layer)->label, name, sizeof name);
-  return g_strdup (name);
+  return g_strdup (strcmp (name, "background") ? name : _ ("background"));
 }
 
 gboolean

@@ -497,9 +497,9 @@ CELD_API CeldStatus celd_puppet_of_levels (const CeldPlane *ink, const CeldPlane
  * for numbers that are not finite or beyond 1e6; the pose is then as before. */
 CELD_API CeldStatus celd_puppet_pose (CeldPuppet *puppet, const CeldHandle *handle, size_t n, const CeldHost *host,
                                       CeldPoseReport *report);
-/* Says what is wrong with a pose and what to do, one English sentence on each line, cut to `size` bytes; "" if nothing
- * is.  Stretching is reported from twice the length on. */
-CELD_API void       celd_pose_text   (const CeldPoseReport *report, char *text, size_t size);
+/* Says what is wrong with a pose and what to do, one sentence on each line, cut to `size` bytes; "" if nothing is.
+ * Stretching is reported from twice the length on.  `translate` may be NULL. */
+CELD_API void       celd_pose_text   (const CeldPoseReport *report, CeldTranslate translate, char *text, size_t size);
 
 /* Draws a puppet in its pose, with straight alpha in the colour space of the layers: parts from back to front by their
  * levels, changed by the depth of handles near them.  `levels` (may be NULL) gets the level of the nearest part that

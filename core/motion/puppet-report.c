@@ -53,26 +53,33 @@ celd_pose_describe (const CeldLattice *lattice, CeldPoseReport *report)
 }
 
 void
-celd_pose_text (const CeldPoseReport *report, char *text, size_t size)
+celd_pose_text (const CeldPoseReport *report, CeldTranslate translate, char *text, size_t size)
 {
   size_t used = 0;
 
   if (size)
     text[0] = 0;
-  if (report->outside)
+  if (report->outside == 1)
     used += (size_t) snprintf (text, size,
-                               "%zu %s outside all parts and %s the nearest part instead: the first is at %.0f,%.0f.\n",
-                               report->outside, report->outside == 1 ? "handle lies" : "handles lie",
-                               report->outside == 1 ? "holds" : "hold", report->outside_x, report->outside_y);
+                               celd_in (translate, N_ ("1 handle lies outside all parts and holds the nearest part "
+                                                       "instead: it is at %.0f,%.0f.\n")),
+                               report->outside_x, report->outside_y);
+  else if (report->outside)
+    used += (size_t) snprintf (text, size,
+                               celd_in (translate, N_ ("%zu handles lie outside all parts and hold the nearest part "
+                                                       "instead: the first is at %.0f,%.0f.\n")),
+                               report->outside, report->outside_x, report->outside_y);
   if (report->folded && used < size)
     used += (size_t) snprintf (text + used, size - used,
-                               "The drawing is folded over in %zu squares of its lattice, most around %.0f,%.0f: move"
-                               " the handles there less far, or lead the part round with more of them.\n",
+                               celd_in (translate, N_ ("The drawing is folded over in %zu squares of its lattice, most "
+                                                       "around %.0f,%.0f: move the handles there less far, or lead the "
+                                                       "part round with more of them.\n")),
                                report->folded, report->folded_x, report->folded_y);
   if (report->stretch > MOST_STRETCH && used < size)
     used += (size_t) snprintf (text + used, size - used,
-                               "The part around %.0f,%.0f is stretched to %.1f times its length: move the handles that"
-                               " pull at it less far apart, or leave one out.\n",
+                               celd_in (translate, N_ ("The part around %.0f,%.0f is stretched to %.1f times its "
+                                                       "length: move the handles that pull at it less far apart, or "
+                                                       "leave one out.\n")),
                                report->stretch_x, report->stretch_y, report->stretch);
   if (used && used < size)
     text[used - 1] = 0;

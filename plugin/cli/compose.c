@@ -122,7 +122,7 @@ report_drawing (const Compose *c, const CliFragment *fragment, const Drawing *d)
     .problems  = problems,
   });
 
-  celd_pose_text (&d->pose, text, sizeof text);
+  celd_pose_text (&d->pose, cli_in_language, text, sizeof text);
   if (text[0] && !fragment->options.quiet)
     cli_say ("%s", text);
   if (code != CLI_DONE || (!fragment->options.quiet && (text[0] || (problems && problems->n))))

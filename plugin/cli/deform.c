@@ -205,7 +205,7 @@ say_pose (const CeldPoseReport *report)
 {
   char text[1000];
 
-  celd_pose_text (report, text, sizeof text);
+  celd_pose_text (report, cli_in_language, text, sizeof text);
   if (text[0])
     cli_say ("%s", text);
 }

@@ -40,7 +40,7 @@ add_layer (CeldPipeline *pipeline, GimpImage *image, GimpLayer *group, gsize i, 
 static GimpLayer *
 write_result (CeldPipeline *pipeline, GimpImage *image, GimpProcedureConfig *config, GError **error)
 {
-  GimpLayer *group = GIMP_LAYER (gimp_group_layer_new (image, "Layers"));
+  GimpLayer *group = GIMP_LAYER (gimp_group_layer_new (image, _ ("Layers")));
   gboolean   good = TRUE;
 
   (void) config;

@@ -52,7 +52,7 @@ write_part (CeldIoFile *file, size_t part, const char *folder, CeldIoError *erro
 static int
 write_parts (const char *path, const char *folder)
 {
-  CeldIoError error = { "" };
+  CeldIoError error = { .text = "" };
   CeldIoFile *file = celd_io_open (path, &error);
 
   if (!file)
@@ -73,7 +73,7 @@ main (int argc, char **argv)
     return write_parts (argv[1], argv[2]);
   while (fgets (name, sizeof name, stdin))
     {
-      CeldIoError error = { "" };
+      CeldIoError error = { .text = "" };
       CeldIoFile *file;
 
       name[strcspn (name, "\n")] = 0;

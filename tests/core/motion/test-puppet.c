@@ -433,22 +433,22 @@ poses_are_reported_with_places (void)
   CeldPoseReport report = pose_and_draw (puppet, pull, 2, NULL);
   char           text[1000];
 
-  celd_pose_text (&report, text, sizeof text);
+  celd_pose_text (&report, NULL, text, sizeof text);
   CHECK (report.stretch > 2 && !report.outside);
   CHECK (report.stretch_x > 40 && report.stretch_x < 120 && report.stretch_y > 60 && report.stretch_y < 200);
   CHECK (strstr (text, "stretched to") && !strstr (text, "outside"));
   report = pose_and_draw (puppet, swap, 3, NULL);
-  celd_pose_text (&report, text, sizeof text);
+  celd_pose_text (&report, NULL, text, sizeof text);
   CHECK (report.folded > 0 && strstr (text, "folded over"));
   CHECK (report.folded_x > 145 && report.folded_x < 215 && report.folded_y > 75 && report.folded_y < 110);
   report = pose_and_draw (puppet, out, 2, NULL);
-  celd_pose_text (&report, text, sizeof text);
-  CHECK (report.outside == 1 && !strcmp (text, "1 handle lies outside all parts and holds the nearest part instead: the"
-                                               " first is at 230,17."));
-  celd_pose_text (&report, text, 9);
+  celd_pose_text (&report, NULL, text, sizeof text);
+  CHECK (report.outside == 1 && !strcmp (text, "1 handle lies outside all parts and holds the nearest part instead: it"
+                                               " is at 230,17."));
+  celd_pose_text (&report, NULL, text, 9);
   CHECK (!strcmp (text, "1 handle"));
   report = pose_and_draw (puppet, out, 1, NULL);
-  celd_pose_text (&report, text, sizeof text);
+  celd_pose_text (&report, NULL, text, sizeof text);
   CHECK (!text[0]);
   celd_puppet_free (puppet);
   layer_scene_close (&s);
