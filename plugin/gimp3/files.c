@@ -7,6 +7,7 @@
  */
 #include "gimp3.h"
 
+#include <glib/gstdio.h>
 #include <string.h>
 
 #include "on-demand.h"
@@ -90,6 +91,9 @@ check_folder (const char *path, GError **error)
   char    *folder = g_path_get_dirname (path);
   gboolean good = g_file_test (folder, G_FILE_TEST_IS_DIR) ||
                   refuse (error, _ ("There is no folder \"%s\". Choose another one, or make it first."), folder);
+
+  good = good && (!g_access (folder, W_OK) ||
+                  refuse (error, _ ("Nothing can be written into the folder \"%s\". Choose another one."), folder));
 
   g_free (folder);
   return good;
