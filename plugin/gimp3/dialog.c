@@ -8,6 +8,7 @@
 
 #define THUMBNAIL 24 /* pixels; chosen */
 #define INDENT    3  /* spaces for each group that a layer lies in; chosen */
+#define ROOM      6  /* pixels above and below the look; chosen */
 
 /* ------------------------------------------------------------------ layers */
 
@@ -237,11 +238,16 @@ set_sensitivity (GimpProcedureDialog *dialog, GimpProcedureConfig *config)
 static void
 fill_popup (GimpProcedureDialog *dialog, GimpProcedureConfig *config, GimpImage *image)
 {
+  GtkWidget *look;
+
   fill_pictures (dialog, image);
   fill_light (dialog, config);
   fill_shadows (dialog, config);
   set_sensitivity (dialog, config);
   celd_preset_follow (config);
+  look = gimp_procedure_dialog_get_widget (dialog, "preset", G_TYPE_NONE);
+  gtk_widget_set_margin_top (look, ROOM);
+  gtk_widget_set_margin_bottom (look, ROOM);
   gimp_procedure_dialog_fill (dialog, "pictures-frame", "preset", "light", "shadows", "reading", NULL);
 }
 
