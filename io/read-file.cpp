@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <limits>
 
 using OIIO::ImageSpec;
 using OIIO::Strutil::iequals;
@@ -154,7 +155,9 @@ open_decoded (const std::string &path)
   if (!file->input)
     throw IoFailure ("it is damaged, or of a format that cannot be read. PNG, TIFF, EXR, PSD, ORA, KRA and JPEG can be "
                      "read; save XCF as ORA or PSD.");
-  for (int i = 0; file->input->seek_subimage (i, 0); i++)
+  // OpenImageIO does not find the way back in a WebP, not even from the search for a second picture.
+  const int most = iequals (file->input->format_name (), "webp") ? 1 : std::numeric_limits<int>::max ();
+  for (int i = 0; i < most && file->input->seek_subimage (i, 0); i++)
     file->specs.push_back (file->input->spec (i, 0));
   file->input->geterror (); // discards the error of the search for a part after the last one
   if (file->specs.empty ())

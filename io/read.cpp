@@ -251,6 +251,8 @@ static void
 open_file (CeldIoFile &file)
 {
   file.wire = start_worker ();
+  if (file.path.empty ())
+    throw IoFailure ("its name is empty.");
   file.wire->send (Request::open);
   file.wire->send_text (std::filesystem::absolute (file.path).string ());
   check_answer (*file.wire);

@@ -83,6 +83,20 @@ check_values (const CliOptionList *list, int argc, char **argv)
 
 /* ------------------------------------------------------------------ the command line */
 
+/* Removes the first "--", after which words are no options, however they begin: GOption leaves it before such words. */
+static void
+drop_end_of_options (int *argc, char **argv)
+{
+  int i = 1;
+
+  while (i < *argc && strcmp (argv[i], "--") != 0)
+    i++;
+  if (i == *argc)
+    return;
+  memmove (argv + i, argv + i + 1, (size_t) (*argc - i) * sizeof *argv); /* with the NULL at the end */
+  (*argc)--;
+}
+
 /* Parses the command line with GOption. */
 static bool
 parse_words (CliOptionList *list, int *argc, char ***argv, CliOptions *options)
@@ -96,7 +110,9 @@ parse_words (CliOptionList *list, int *argc, char ***argv, CliOptions *options)
   g_option_context_set_main_group (context, group);
   g_option_context_set_help_enabled (context, FALSE);
   good = g_option_context_parse (context, argc, argv, &error);
-  if (!good)
+  if (good)
+    drop_end_of_options (argc, *argv);
+  else
     say_error (error, list);
   g_clear_error (&error);
   g_option_context_free (context);

@@ -291,6 +291,24 @@ class Drawings(Test):
         drawing().convert('RGB').quantize(4).save(self.path('palette.png'))
         self.same_labels('palette.png')
 
+    def test_web(self):
+        """As chats and web pages store pictures."""
+        drawing().convert('RGB').save(self.path('page.webp'), lossless=True)
+        self.same_labels('page.webp')
+        drawing().convert('RGB').save(self.path('page.gif'))
+        self.same_labels('page.gif')
+        scribbles().save(self.path('strokes.webp'), lossless=True)
+        self.celdepth('segment', 'drawing.png', '--scribbles', 'strokes.webp', '--labels', 'l.png')
+        self.assertEqual(tuple(at(self.picture('l.png'), IN_A)), RED + (255,))
+
+    def test_odd_names(self):
+        """Names that begin with a dash follow "--"; spaces, line breaks and bytes that are no UTF-8 may be in names."""
+        for name in ('-page.png', 'two words\n.png', os.fsdecode(b'page\xff.png')):
+            drawing().save(self.path(name))
+            words = '--scribbles', 'scribbles.png', '--labels', 'l.png', '--', name
+            self.celdepth('segment', *words)
+        self.assertIn('is missing', self.celdepth('segment', *words[:-1], code=2))
+
     def test_one_pixel_wide(self):
         Image.new('L', (1, 8), 255).save(self.path('line.png'))
         Image.new('RGBA', (1, 8), RED + (255,)).save(self.path('red.png'))
@@ -443,6 +461,7 @@ class BadInput(Test):
         os.mkdir(self.path('folder.png'))
         self.fails('popup', 'none.png', '--depth', 'd.png', naming='"none.png": there is no such file')
         self.fails('popup', 'folder.png', '--depth', 'd.png', naming='"folder.png": it is a folder')
+        self.fails('popup', '', '--depth', 'd.png', naming='"": its name is empty')
         self.fails('popup', 'drawing.png', '--scribbles', 'none.png', '--depth', 'd.png', naming='none.png')
         with open(self.path('text.png'), 'w', encoding='ascii') as file:
             file.write('this is no picture')

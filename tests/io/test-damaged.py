@@ -46,6 +46,8 @@ def good_files(folder):
     strokes.quantize(8).save(path('palette.png'))
     drawing().convert('RGB').save(path('plain.jpg'))
     drawing().convert('RGB').save(path('progressive.jpg'), progressive=True)
+    for name in ('plain.webp', 'plain.bmp'):
+        drawing().convert('RGB').save(path(name))
     drawing().save(path('moving.gif'), save_all=True, append_images=[Image.new('L', (WIDTH, HEIGHT), 9)])
     for kind in ('tiff_lzw', 'tiff_deflate', 'packbits', 'raw'):
         strokes.save(path(f'{kind}.tif'), compression=kind)
