@@ -80,7 +80,7 @@ typedef struct { CeldColours art; CeldPlane ink, levels; } Piece;
 static gboolean
 read_piece (CeldOp *op, const char *art, const char *levels, Piece *piece)
 {
-  if (!celd_op_read_colours (op, art, &piece->art) || !celd_op_read_ink (op, art, &piece->ink))
+  if (!celd_op_read_colours (op, art, &piece->art) || !celd_op_read_ink_of_art (op, art, &piece->ink))
     return FALSE;
   if (celd_op_has_input (op, levels))
     return celd_op_read_plane (op, levels, &piece->levels);

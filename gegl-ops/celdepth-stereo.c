@@ -66,7 +66,8 @@ make_scene (CeldOp *op, const CeldColours *art, const CeldPlane *depth, CeldScen
 {
   CeldPlane ink, levels;
 
-  if (!celd_op_read_ink (op, celd_op_has_input (op, "aux3") ? "aux3" : "input", &ink))
+  if (!(celd_op_has_input (op, "aux3") ? celd_op_read_ink (op, "aux3", &ink)
+                                       : celd_op_read_ink_of_art (op, "input", &ink)))
     return FALSE;
   if (!celd_op_has_input (op, "aux2"))
     return celd_op_try (op, celd_scene_of_depth (art, &ink, depth, &op->settings, &op->host, scene));

@@ -42,8 +42,9 @@ check_ink (CeldOp *op)
                               "or another setting of 'Ink'."));
 }
 
-gboolean
-celd_op_check_drawing (CeldOp *op, const char *pad, const CeldDrawing *drawing)
+/* Checks a drawing, and whether the session has ink of it, unless it is the last good one. */
+static gboolean
+check (CeldOp *op, const char *pad, const CeldDrawing *drawing, gboolean in_session)
 {
   gsize   size = (gsize) op->picture.width * (gsize) op->picture.height * sizeof (float);
   guint64 input = celd_op_settings_input (op);
@@ -54,10 +55,23 @@ celd_op_check_drawing (CeldOp *op, const char *pad, const CeldDrawing *drawing)
   input = celd_op_add_input (input, drawing->alpha.data, size);
   if (input == op->operation->good_drawing)
     return TRUE;
-  if ((op->settings.ink == CELD_INK_AUTO && !check_lines (op, celd_op_buffer (op, pad))) || !check_ink (op))
+  if ((op->settings.ink == CELD_INK_AUTO && !check_lines (op, celd_op_buffer (op, pad))) ||
+      (in_session && !check_ink (op)))
     return FALSE;
   op->operation->good_drawing = input;
   return TRUE;
+}
+
+gboolean
+celd_op_check_drawing (CeldOp *op, const char *pad, const CeldDrawing *drawing)
+{
+  return check (op, pad, drawing, TRUE);
+}
+
+gboolean
+celd_op_check_lines (CeldOp *op, const char *pad, const CeldDrawing *drawing)
+{
+  return check (op, pad, drawing, FALSE);
 }
 
 gboolean

@@ -183,8 +183,10 @@ gboolean celd_op_read_plane   (CeldOp *op, const char *pad, CeldPlane *plane);  
 gboolean celd_op_read_paint   (CeldOp *op, const char *pad, CeldPaint *paint);      /* R'G'B'A, sRGB */
 gboolean celd_op_read_drawing (CeldOp *op, const char *pad, CeldDrawing *drawing);
 gboolean celd_op_read_colours (CeldOp *op, const char *pad, CeldColours *colours);  /* linear */
-gboolean celd_op_read_ink     (CeldOp *op, const char *pad, CeldPlane *ink);
+gboolean celd_op_read_ink     (CeldOp *op, const char *pad, CeldPlane *ink);        /* of a drawing, no photograph */
 gboolean celd_op_read_sample  (CeldOp *op, const char *pad, CeldColours *colours);  /* linear, its own size */
+/* Of art, which may be a painting. */
+gboolean celd_op_read_ink_of_art (CeldOp *op, const char *pad, CeldPlane *ink);
 
 /* Pictures of the size of op->picture, not cleared; freed after the call. */
 gboolean celd_op_new_plane   (CeldOp *op, CeldPlane *plane);

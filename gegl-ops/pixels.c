@@ -122,6 +122,17 @@ celd_op_read_ink (CeldOp *op, const char *pad, CeldPlane *ink)
   CeldDrawing drawing;
 
   return celd_op_read_drawing (op, pad, &drawing) &&
+         celd_op_check_lines (op, pad, &drawing) &&
+         celd_op_new_plane (op, ink) &&
+         celd_op_try (op, celd_ink (&drawing, op->settings.ink, &op->quiet, ink));
+}
+
+gboolean
+celd_op_read_ink_of_art (CeldOp *op, const char *pad, CeldPlane *ink)
+{
+  CeldDrawing drawing;
+
+  return celd_op_read_drawing (op, pad, &drawing) &&
          celd_op_new_plane (op, ink) &&
          celd_op_try (op, celd_ink (&drawing, op->settings.ink, &op->quiet, ink));
 }

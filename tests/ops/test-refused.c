@@ -54,6 +54,27 @@ photographs_are_no_drawings (void)
   g_object_unref (photograph);
 }
 
+/* Also for single steps, which have an answer for a blank page; art may be a photograph. */
+static void
+photographs_have_no_steps (void)
+{
+  static const char *const steps[] = { "celdepth:depth-smooth", "celdepth:depth-expand", "celdepth:lumo-shade",
+                                       "celdepth:relief", "celdepth:arap-register" };
+  GeglBuffer              *photograph = surface (false), *page = blank ();
+
+  for (size_t i = 0; i < G_N_ELEMENTS (steps); i++)
+    CHECK (refuses (steps[i], (Pads) { { page, photograph } }, "The drawing looks like a photograph"));
+  CHECK (refuses ("celdepth:stereo", (Pads) { { drawing, page, NULL, photograph } },
+                  "The drawing looks like a photograph"));
+  be_quiet ();
+  operate ("celdepth:depth-smooth", (Pads) { { page, photograph } }, "Y float", result, "ink", CELD_INK_DARK, NULL);
+  operate ("celdepth:depth-smooth", (Pads) { { page, page } }, "Y float", result, NULL);
+  operate ("celdepth:stereo", (Pads) { { photograph, page } }, "RGBA float", result, NULL);
+  CHECK (!SAYS ("photograph"));
+  g_object_unref (photograph);
+  g_object_unref (page);
+}
+
 static void
 photographs_are_no_scribbles (void)
 {
@@ -157,6 +178,7 @@ main (int argc, char **argv)
   make_page ();
   start_to_listen ();
   RUN (photographs_are_no_drawings);
+  RUN (photographs_have_no_steps);
   RUN (photographs_are_no_scribbles);
   RUN (exchanged_layers_are_noticed);
   RUN (blank_pages_have_no_depth);
