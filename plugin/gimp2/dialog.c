@@ -284,28 +284,39 @@ layers_frame (gint32 image, CeldChoices *choices)
   return frame;
 }
 
+/* Two columns, what and how: one would be too high for small screens. */
+static GtkWidget *
+columns (gint32 image, Dialog *dialog)
+{
+  GtkWidget *box = gtk_hbox_new (FALSE, 3 * SPACE), *what = gtk_vbox_new (FALSE, 2 * SPACE);
+  GtkWidget *how = gtk_vbox_new (FALSE, 2 * SPACE);
+
+  gtk_container_set_border_width (GTK_CONTAINER (box), 2 * SPACE);
+  gtk_box_pack_start (GTK_BOX (what), layers_frame (image, dialog->choices), FALSE, FALSE, 0);
+  gtk_box_pack_start (GTK_BOX (what), pictures_frame (dialog), FALSE, FALSE, 0);
+  gtk_box_pack_start (GTK_BOX (what), presets_frame (dialog), FALSE, FALSE, 0);
+  gtk_box_pack_start (GTK_BOX (what), relations_frame (dialog->choices), FALSE, FALSE, 0);
+  for (int i = 0; i < CELD_N_MAIN_SETTINGS;)
+    gtk_box_pack_start (GTK_BOX (how), settings_frame (&i, dialog), FALSE, FALSE, 0);
+  gtk_box_pack_start (GTK_BOX (box), what, TRUE, TRUE, 0);
+  gtk_box_pack_start (GTK_BOX (box), how, TRUE, TRUE, 0);
+  return box;
+}
+
 gboolean
 celd_dialog_run (gint32 image, CeldChoices *choices)
 {
   Dialog     widgets = { choices, g_ptr_array_new (), NULL, FALSE };
-  GtkWidget *dialog, *box;
+  GtkWidget *dialog;
   gboolean   go;
 
   gimp_ui_init ("celdepth", FALSE);
-  box             = gtk_vbox_new (FALSE, 2 * SPACE);
   widgets.presets = g_object_new (GIMP_TYPE_INT_COMBO_BOX, NULL);
   dialog          = gimp_dialog_new (_ ("Pop-up"), "celdepth", NULL, 0, gimp_standard_help_func,
                                      "plug-in-celdepth-popup", _ ("_Cancel"), GTK_RESPONSE_CANCEL, _ ("_Make"),
                                      GTK_RESPONSE_OK, NULL);
   gtk_dialog_set_default_response (GTK_DIALOG (dialog), GTK_RESPONSE_OK);
-  gtk_container_set_border_width (GTK_CONTAINER (box), 2 * SPACE);
-  gtk_box_pack_start (GTK_BOX (box), layers_frame (image, choices), FALSE, FALSE, 0);
-  gtk_box_pack_start (GTK_BOX (box), pictures_frame (&widgets), FALSE, FALSE, 0);
-  gtk_box_pack_start (GTK_BOX (box), presets_frame (&widgets), FALSE, FALSE, 0);
-  for (int i = 0; i < CELD_N_MAIN_SETTINGS;)
-    gtk_box_pack_start (GTK_BOX (box), settings_frame (&i, &widgets), FALSE, FALSE, 0);
-  gtk_box_pack_start (GTK_BOX (box), relations_frame (choices), FALSE, FALSE, 0);
-  gtk_container_add (GTK_CONTAINER (gtk_dialog_get_content_area (GTK_DIALOG (dialog))), box);
+  gtk_container_add (GTK_CONTAINER (gtk_dialog_get_content_area (GTK_DIALOG (dialog))), columns (image, &widgets));
   gtk_widget_show_all (dialog);
   /* Return makes what is ticked; the first choice of a layer would have the focus, and open. */
   gtk_widget_grab_focus (gtk_dialog_get_widget_for_response (GTK_DIALOG (dialog), GTK_RESPONSE_OK));
