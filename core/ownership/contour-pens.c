@@ -189,6 +189,30 @@ own_lines_inside (const CeldEdgeLoop *loop, CeldContourPens *pens)
   return left;
 }
 
+/* Near a corner normals may run along the line, and end at a region that the line does not bound: if both sides have one
+ * owner, it owns the corner between them, too. */
+static void
+join_sides (const CeldEdgeLoop *loop, CeldContourPens *pens)
+{
+  const CeldEdgePoint *point = &pens->edges->point[loop->first];
+  CeldEdgePen         *pen = &pens->pen[loop->first];
+
+  for (size_t i = 0; i < loop->n; i++)
+    {
+      const CeldEdgePen *before = &pen[(i + loop->n - 1) % loop->n];
+      size_t             end = i, n = 0;
+
+      for (; n < loop->n && !pen[end].owner && point[end].skewed; n++)
+        end = (end + 1) % loop->n;
+      if (before->owner && before->owner == pen[end].owner)
+        for (; n > 0; n--, i++)
+          {
+            pen[i % loop->n].owner = before->owner;
+            pen[i % loop->n].width = before->width;
+          }
+    }
+}
+
 /* The owner of a point that nothing along the edge tells about. */
 static void
 assume_owner (const CeldContourPens *pens, const CeldEdgePoint *p, CeldEdgePen *pen)
@@ -226,6 +250,8 @@ find_loop_owners (const CeldEdgeLoop *loop, CeldContourPens *pens, float *distan
     spread_owners (loop, pens, ROUND_CORNERS, distance);
   if (unknown && own_lines_inside (loop, pens))
     spread_owners (loop, pens, FROM_INSIDE, distance);
+  if (unknown)
+    join_sides (loop, pens);
   for (size_t i = 0; i < loop->n; i++)
     if (!pen[i].owner)
       assume_owner (pens, &point[i], &pen[i]);

@@ -250,8 +250,24 @@ def hairline():
     return f
 
 
+def stroke_on_contour():
+    """A stroke inside a sheet ends on the sheet's contour, behind which a nearer sheet begins."""
+    f = Figure()
+    f.line([(20, 150), (220, 40)], 12)
+    f.line([(92, 10), (108, 100)], 12)
+    around = [2 * math.pi * i / 80 for i in range(80)]
+    f.shape([(120 + 60 * math.cos(a), 142 + 36 * math.sin(a)) for a in around], 10)
+    f.stroke('scribbles', [(40, 40), (80, 60)], A)
+    f.stroke('scribbles', [(140, 30), (170, 30)], A)
+    f.stroke('scribbles', [(200, 150), (220, 100)], B)
+    f.stroke('scribbles', [(20, 180), (50, 180)], B)
+    f.stroke('scribbles', [(100, 145), (140, 145)], C)
+    f.relations = '120,145 > 60,50\n60,50 > 210,125'
+    return f
+
+
 FIGURES = [two_arrows, thick, contours, two_characters, frame, limbs, cycle, broken, pinched_little, pinched_much,
-           severed, close_up, forgotten, hairline]
+           severed, close_up, forgotten, hairline, stroke_on_contour]
 
 
 if __name__ == '__main__':

@@ -182,8 +182,15 @@ def hairline(run):
     yield 'between the ring and the box', (r.labels[outside][:, :3] == figures.B).all()
 
 
+def stroke_on_contour(run):
+    r = run()
+    yield 'the order', r.level(120, 145) > r.level(60, 50) > r.level(210, 125)
+    yield 'no ink above its outline, from y = 101 on, belongs to the nearer sheet', \
+        (r.levels[:97] < r.level(120, 145)).all()
+
+
 OUTCOMES = [two_arrows, thick, contours, two_characters, frame, limbs, cycle, broken, pinched, pinched,
-            severed, close_up, forgotten, hairline]
+            severed, close_up, forgotten, hairline, stroke_on_contour]
 
 
 def main():
