@@ -13,6 +13,7 @@
 #include "segment/bridges.h"
 #include "segment/closures.h"
 
+#include <math.h>
 #include <string.h>
 
 #define ARM_LENGTH   1.25 /* stroke widths along the outline to either side */
@@ -23,6 +24,7 @@
                             * everywhere */
 #define SHARP_TURN   0.6  /* distance of both arms' ends, relative to the arms' lengths: a right angle has 0.71 */
 #define CERTAIN_TIP  0.42 /* the largest such value for a line whose direction cannot be fitted */
+#define LEAST_INKED  0.75 /* of the way from side to side of a line that ends (chosen) */
 #define SAME_END     0.75 /* line widths: ends closer than this are the same */
 #define END_CELL     16   /* pixels: side of the cells in which found ends are looked up */
 
@@ -179,6 +181,23 @@ add_tip (LineEndSearch *s, CeldTip end)
   return CELD_OK;
 }
 
+/* Is there mostly ink between the ends of arms of that length?  Between the sides of a limb that is only outlined, there
+ * is paper. */
+static bool
+is_inked (const LineEndSearch *s, size_t i, size_t arm)
+{
+  CeldCorner a = s->corner[(i + s->n - arm) % s->n], b = s->corner[(i + arm) % s->n];
+  int        steps = (int) ceil (2 * hypot (b.x - a.x, b.y - a.y)) + 1, ink = 0;
+
+  for (int k = 0; k < steps; k++)
+    {
+      double t = (k + 0.5) / steps;
+
+      ink += *mask_at (s, (int) floor (a.x + t * (b.x - a.x)), (int) floor (a.y + t * (b.y - a.y))) != 0;
+    }
+  return ink >= LEAST_INKED * steps;
+}
+
 /* Adds the corner if a line ends there.  A very sharp tip (CERTAIN_TIP) counts even if its line is too short or too
  * curved to fit a direction. */
 static CeldStatus
@@ -238,7 +257,8 @@ search_outline (LineEndSearch *s, size_t arm)
               middle     = other;
             }
         }
-      status = try_corner (s, s->corner[best], middle, least);
+      if (is_inked (s, best, arm) && is_inked (s, best, arm / 2))
+        status = try_corner (s, s->corner[best], middle, least);
     }
   return status;
 }

@@ -143,6 +143,30 @@ blots_and_areas_have_none (void)
   scene_close (&s);
 }
 
+/* A limb of paper with a thin outline, on a bold line: between its sides there is no ink. */
+static void
+an_outlined_limb_is_no_line (void)
+{
+  for (int height = 50; height <= 70; height += 10)
+    {
+      CeldTip  *tip = NULL;
+      CeldPlace corner[4] = { { 72.5, 120 }, { 72.5, 119.5 - height }, { 88.5, 119.5 - height }, { 88.5, 120 } };
+      Scene     s;
+      size_t    n;
+
+      scene_open (SIDE, SIDE, &s);
+      scene_line (&s, (CeldPlace) { 10, 130 }, (CeldPlace) { 150, 130 }, 21);
+      for (int i = 0; i < 3; i++)
+        scene_line (&s, corner[i], corner[i + 1], 1.2);
+      n = find (&s, &tip);
+      CHECK (n >= 2);
+      for (size_t i = 0; i < n; i++)
+        CHECK (tip[i].y > 115);
+      celd_free (tip);
+      scene_close (&s);
+    }
+}
+
 /* Pages too small for any line, and lines of one pixel. */
 static void
 pages_of_a_few_pixels_have_no_ends (void)
@@ -171,6 +195,7 @@ main (void)
   RUN (crossing_lines_have_four);
   RUN (both_ends_at_a_gap_are_found);
   RUN (blots_and_areas_have_none);
+  RUN (an_outlined_limb_is_no_line);
   RUN (pages_of_a_few_pixels_have_no_ends);
   return DONE;
 }
