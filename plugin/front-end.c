@@ -145,26 +145,32 @@ read_preset (const char *name, CeldSettings *settings, GError **error)
   return TRUE;
 }
 
+/* NAME=VALUE, which is cut into its parts. */
+static gboolean
+read_word (char *word, CeldSettings *settings, GError **error)
+{
+  char *value = strchr (word, '=');
+
+  if (!value)
+    return fail (error, _ ("\"%s\" is no setting: settings are NAME=VALUE.%s"), word, "");
+  *value = 0;
+  return celd_setting_read (word, value + 1, settings, error);
+}
+
 gboolean
 celd_settings_read (const char *text, CeldSettings *settings, GError **error)
 {
-  char   **word = g_strsplit_set (text ? text : "", " ,\n", 0);
-  gboolean good = TRUE;
+  static const char preset[] = "preset=";
+  const size_t      length = sizeof preset - 1;
+  char            **word = g_strsplit_set (text ? text : "", " ,\n", 0);
+  gboolean          good = TRUE;
 
+  for (int i = 0; word[i] && good; i++) /* first, since other settings count more, wherever they are */
+    if (g_str_has_prefix (word[i], preset))
+      good = read_preset (word[i] + length, settings, error);
   for (int i = 0; word[i] && good; i++)
-    if (*word[i])
-      {
-        char *value = strchr (word[i], '=');
-
-        if (value)
-          {
-            *value = 0;
-            good   = !strcmp (word[i], "preset") ? read_preset (value + 1, settings, error)
-                                                 : celd_setting_read (word[i], value + 1, settings, error);
-          }
-        else
-          good = fail (error, _ ("\"%s\" is no setting: settings are NAME=VALUE.%s"), word[i], "");
-      }
+    if (*word[i] && !g_str_has_prefix (word[i], preset))
+      good = read_word (word[i], settings, error);
   g_strfreev (word);
   return good;
 }

@@ -30,6 +30,8 @@
 
 #include <glib.h>
 
+#include "presets.h"
+
 /* Exit codes; part of the command's interface. */
 enum { CLI_DONE = 0, CLI_FAILED = 1, CLI_USAGE = 2, CLI_CONTRADICTED = 3 };
 
@@ -73,6 +75,7 @@ typedef struct
   CeldSettings settings;
   GPtrArray   *offered;    /* the options that are settings, for options-settings.c */
   char        *preset_names; /* of --preset, as --help shows them */
+  const CeldPreset *preset;  /* NULL: none was chosen */
 } CliOptions;
 
 typedef struct

@@ -4,9 +4,6 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "options.h"
-
-#include "presets.h"
-
 #include <math.h>
 #include <string.h>
 
@@ -16,6 +13,7 @@ typedef struct
   const CeldSettingInfo *row;
   const char            *theme;
   char                  *values, *help;
+  bool                   given;        /* by the command line */
 } SettingOption;
 
 static void
@@ -188,6 +186,17 @@ refuse (const CeldSettingInfo *row, const char *name, const char *text, GError *
   g_free (words);
 }
 
+static void
+mark_given (const CeldSettingInfo *row, CliOptions *options)
+{
+  for (guint i = 0; i < options->offered->len; i++)
+    {
+      SettingOption *option = options->offered->pdata[i];
+
+      option->given |= option->row == row;
+    }
+}
+
 /* Sets a setting from the command line; an error if the value is not within its range. */
 static gboolean
 take_setting (const char *name, const char *text, gpointer data, GError **error)
@@ -199,6 +208,7 @@ take_setting (const char *name, const char *text, gpointer data, GError **error)
   if (read_value (row, text, &value) && celd_setting_allows (row, value))
     {
       celd_setting_set (row, value, &options->settings);
+      mark_given (row, options);
       if (row->type == CELD_SETTING_COLOUR)
         {
           options->background_colour   = true;
@@ -215,15 +225,12 @@ take_setting (const char *name, const char *text, gpointer data, GError **error)
 static gboolean
 take_preset (const char *name, const char *text, gpointer data, GError **error)
 {
-  CliOptions       *options = data;
-  const CeldPreset *preset = celd_preset_find (text);
-  GString          *names;
+  CliOptions *options = data;
+  GString    *names;
 
-  if (preset)
-    {
-      celd_preset_fill (preset, &options->settings);
-      return TRUE;
-    }
+  options->preset = celd_preset_find (text);
+  if (options->preset)
+    return TRUE;
   names = g_string_new (NULL);
   for (int i = 0; i < CELD_N_PRESETS; i++)
     g_string_append_printf (names, "%s%s", !i ? "" : i + 1 < CELD_N_PRESETS ? ", " : " or ", celd_presets[i].name);
@@ -281,6 +288,23 @@ cli_settings_append (const CliCommand *command, CliOptions *options, CliOptionLi
   g_strfreev (words);
   if (command->step == CLI_POPUP)
     append_preset (options, list);
+}
+
+void
+cli_settings_complete (CliOptions *options)
+{
+  CeldSettings preset = celd_settings ();
+
+  if (!options->preset)
+    return;
+  celd_preset_choose (options->preset, &preset);
+  for (guint i = 0; i < options->offered->len; i++)
+    {
+      const SettingOption *option = options->offered->pdata[i];
+
+      if (!option->given && celd_preset_covers (option->row->name))
+        celd_setting_set (option->row, celd_setting_get (option->row, &preset), &options->settings);
+    }
 }
 
 void

@@ -187,6 +187,7 @@ check (const CliCommand *command, int argc, char **argv, CliOptions *options)
   if (!check_input (command, argc, argv, options))
     return false;
   cli_counts_complete (options);
+  cli_settings_complete (options);
   if (options->settings.background == CELD_BACKGROUND_COLOUR && !options->background_colour)
     return cli_error ("--background colour needs --background-colour.");
   if (celd_settings_check (&options->settings) != CELD_OK)

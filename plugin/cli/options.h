@@ -56,6 +56,8 @@ bool cli_stream_output (CliStreams *streams, const char *what, const char *endin
 
 /* Adds each setting of a command; the data of its entry are the CliOptions. */
 void cli_settings_append (const CliCommand *command, CliOptions *options, CliOptionList *list);
+/* After parsing: sets what the chosen preset says of settings that were not given. */
+void cli_settings_complete (CliOptions *options);
 void cli_settings_clear (CliOptions *options);
 
 /* ------------------------------------------------------------------ options-clip.c */

@@ -73,6 +73,9 @@ other_settings_count_more (void)
   NEAR (memcmp (&before, &after, sizeof before), 0, 0);
   NEAR (before.light_model, CELD_MODEL_TOON, 0);
   NEAR (before.ambient, 0.4, 1e-6);
+  before = celd_settings ();
+  CHECK (celd_settings_read ("ambient=0.25 preset=cel", &before, NULL)); /* its default */
+  NEAR (before.ambient, 0.25, 1e-6);
   CHECK (!celd_settings_read ("preset=nonsense", &wrong, &error));
   CHECK (error && strstr (error->message, "\"nonsense\""));
   CHECK (celd_preset_of (&wrong) == &celd_presets[0]);
