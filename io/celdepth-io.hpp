@@ -65,12 +65,13 @@ template <typename Work>
 bool
 guarded (const char *verb, const std::string &path, CeldIoError *error, Work work)
 {
-  std::string why;
+  const std::string what = std::string ("Cannot ") + verb + " \"" + path + "\": ";
+  std::string       why;
 
   if (succeeds (why, work))
     return true;
-  std::snprintf (error->text, sizeof error->text, "Cannot %s \"%s\": %s", verb, path.c_str (), why.c_str ());
-  error->reason = std::min (std::string (error->text).size (), path.size () + std::strlen (verb) + sizeof "Cannot  \"\": " - 1);
+  std::snprintf (error->text, sizeof error->text, "%s%s", what.c_str (), why.c_str ());
+  error->reason = std::min (what.size (), std::strlen (error->text));
   return false;
 }
 
