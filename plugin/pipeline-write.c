@@ -7,8 +7,6 @@
 #include "buffers.h"
 #include "problems.h"
 
-#include <string.h>
-
 /* ------------------------------------------------------------------ writing pictures */
 
 static void
@@ -184,7 +182,7 @@ celd_pipeline_layer_name (const CeldPipeline *p, gsize layer)
   char name[40];
 
   celd_label_name (celd_session_palette (p->session), celd_layers_item (p->layers, layer)->label, name, sizeof name);
-  return g_strdup (strcmp (name, "background") ? name : _ ("background"));
+  return g_strdup (_ (name)); /* a colour has no translation */
 }
 
 gboolean

@@ -40,7 +40,7 @@ celd_label_name (const CeldPalette *palette, uint32_t label, char *name, size_t 
   for (size_t i = 0; i < palette->n; i++)
     alike += !memcmp (palette->item[i].colour, c, sizeof palette->item[i].colour);
   if (!c[3])
-    snprintf (name, size, "background");
+    snprintf (name, size, N_ ("background"));
   else if (alike > 1)
     snprintf (name, size, "#%02x%02x%02x label %u", c[0], c[1], c[2], (unsigned) label);
   else
