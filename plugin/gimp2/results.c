@@ -45,7 +45,8 @@ celd_results_is_group (gint32 item)
 
 /* ------------------------------------------------------------------ finding */
 
-/* The first group of results that is not locked, below a group or in the image; -1: there is none. */
+/* The lowest group of results that is not locked, below a group or in the image; -1: there is none.  A copy of a group,
+ * or of a layer in it, has its mark, too, and lies above: it is the artist's. */
 static gint32
 find_group (gint32 image, gint32 parent)
 {
@@ -53,11 +54,16 @@ find_group (gint32 image, gint32 parent)
   gint  *items = parent < 0 ? gimp_image_get_layers (image, &n) : gimp_item_get_children (parent, &n);
   gint32 found = -1;
 
-  for (int i = 0; i < n && found < 0; i++)
-    if (celd_results_is_group (items[i]))
-      found = gimp_item_get_lock_content (items[i]) ? -1 : items[i];
-    else if (gimp_item_is_group (items[i]))
-      found = find_group (image, items[i]);
+  for (int i = 0; i < n; i++)
+    {
+      gint32 here = -1;
+
+      if (celd_results_is_group (items[i]))
+        here = gimp_item_get_lock_content (items[i]) ? -1 : items[i];
+      else if (gimp_item_is_group (items[i]))
+        here = find_group (image, items[i]);
+      found = here >= 0 ? here : found;
+    }
   g_free (items);
   return found;
 }
@@ -76,8 +82,7 @@ get_group (gint32 image)
   return group;
 }
 
-/* The layer of a picture in the group; -1: there is none.  A copy has the mark, too, and lies above: it is the
- * artist's. */
+/* The lowest layer of a picture in the group; -1: there is none. */
 static gint32
 find_layer (gint32 group, CeldPicture picture)
 {

@@ -106,6 +106,25 @@
         (check (> (car (gimp-image-get-parasite-list image)) 0) "choices are kept")
         (gimp-image-delete image)))))
 
+;; A copy of the whole group lies above it, and is the artist's.
+(define (check-copied-group examples)
+  (let* ((image (make-image examples PRECISION-U8-GAMMA '("Drawing" "Scribbles" "Arrows")))
+         (group (popup image "lit,depth" "" ""))
+         (copy (car (gimp-layer-copy group FALSE))))
+    (gimp-image-insert-layer image copy 0 0)
+    (check (= group (popup image "lit,regions" "" "")) "a copy of the group is not taken for the group")
+    (check (equal? (layer-names (children group)) '("Lit drawing" "Regions")) "which is updated")
+    (check (= 2 (length (children copy))) "and the copy stays as it is")
+    (gimp-image-delete image)))
+
+;; A finished flat colouring needs no scribbles.
+(define (check-flats examples)
+  (let* ((image (make-image examples PRECISION-U8-GAMMA '("Drawing" "paper" "notes"))))
+    (for-each (lambda (name) (gimp-image-remove-layer image (find name (top-layers image)))) '("paper" "notes"))
+    (let ((group (popup image "regions" "flats=yes" "")))
+      (check (equal? (layer-names (children group)) '("Regions")) "flat colours are scribbles by themselves"))
+    (gimp-image-delete image)))
+
 (define (check-bad-input examples)
   (let* ((image (make-image examples PRECISION-U8-GAMMA '("Drawing" "paper" "notes"))))
     (check (fails? image "depth" "" "") "without scribbles and arrows it is refused")
@@ -160,6 +179,8 @@
   (check-results examples out "16" PRECISION-U16-GAMMA '("Zeichnung" "Tahy" "arrows"))
   (check-results examples out "32" PRECISION-FLOAT-LINEAR '("Drawing" "Scribbles" "Arrows"))
   (check-again examples out)
+  (check-copied-group examples)
+  (check-flats examples)
   (check-bad-input examples)
   (check-chosen-layers examples)
   (let ((image (make-image examples PRECISION-U8-GAMMA '("Drawing" "Scribbles" "Arrows"))))
