@@ -50,7 +50,7 @@ check (gint32 image, const CeldChoices *choices, GError **error)
   if (choices->layer[CELD_LAYER_DRAWING] < 0)
     return fail (error, _ ("There is no layer named \"Drawing\", and there are several that could be it. Name it, or "
                            "choose it in the dialog."));
-  if (choices->layer[CELD_LAYER_SCRIBBLES] < 0 && choices->layer[CELD_LAYER_ARROWS] < 0)
+  if (!choices->settings.flats && choices->layer[CELD_LAYER_SCRIBBLES] < 0 && choices->layer[CELD_LAYER_ARROWS] < 0)
     return fail (error, _ ("There is no layer with scribbles or arrows. Choose one in the dialog, or make a layer "
                            "named \"Scribbles\", and scribble over each part in a colour of its own."));
   return TRUE;

@@ -75,7 +75,8 @@ GimpValueArray *celd_run (GimpProcedure *procedure, GimpRunMode run_mode, GimpIm
 /* Whether this kind of image can be used, and whether there are the layers and arrows that are needed; *error is a
  * sentence for the artist. */
 gboolean celd_image_check  (GimpImage *image, GError **error);
-gboolean celd_layers_check (GimpLayer *const layer[CELD_N_LAYERS], const CeldPathArrows *paths, GError **error);
+gboolean celd_layers_check (GimpLayer *const layer[CELD_N_LAYERS], const CeldPathArrows *paths, GimpProcedureConfig *config,
+                            GError **error);
 
 /* ------------------------------------------------------------------ layers.c */
 

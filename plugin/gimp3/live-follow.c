@@ -282,7 +282,7 @@ look (CeldLiveFollower *f, gboolean *changed, GError **error)
   celd_settings_recall (f->image, f->config);
   celd_layers_chosen (f->config, layer);
   paths = celd_paths_read (f->image);
-  good  = celd_layers_check (layer, &paths, error);
+  good  = celd_layers_check (layer, &paths, f->config, error);
   if (good)
     {
       *changed |= take_layers (f, layer);

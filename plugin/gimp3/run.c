@@ -69,12 +69,13 @@ find_layers (GimpImage *image, GimpProcedureConfig *config)
 }
 
 gboolean
-celd_layers_check (GimpLayer *const layer[CELD_N_LAYERS], const CeldPathArrows *paths, GError **error)
+celd_layers_check (GimpLayer *const layer[CELD_N_LAYERS], const CeldPathArrows *paths, GimpProcedureConfig *config,
+                   GError **error)
 {
   if (!layer[CELD_LAYER_DRAWING])
     return fail (error, _ ("There is no layer named \"Drawing\", and there are several that could be it. Name it, or "
                            "choose it in the dialog."));
-  if (!layer[CELD_LAYER_SCRIBBLES] && !layer[CELD_LAYER_ARROWS] && !paths->n)
+  if (!celd_settings_chosen (config).flats && !layer[CELD_LAYER_SCRIBBLES] && !layer[CELD_LAYER_ARROWS] && !paths->n)
     return fail (error, _ ("There is no layer with scribbles or arrows. Choose one in the dialog, or make them with "
                            "Cartoon Depth > Set up layers, and scribble over each part in a colour of its own."));
   return TRUE;
@@ -175,7 +176,7 @@ read_and_make (const CeldProcedure *p, GimpImage *image, GimpProcedureConfig *co
 
   gimp_progress_init (_ ("Reading the layers"));
   celd_layers_chosen (config, layer);
-  if (celd_layers_check (layer, &paths, error))
+  if (celd_layers_check (layer, &paths, config, error))
     pipeline = open_pipeline (image, config, layer, &paths, error);
   good = pipeline && p->make (pipeline, image, config, show_progress, &progress, error);
   if (good)

@@ -138,6 +138,15 @@ def input_without_sense_is_refused():
     refused(image, 'chosen as', scribbles=by_name(image, 'Drawing'))
 
 
+def flat_colours_are_scribbles_by_themselves():
+    image = open_people(8)
+    for name in ('Scribbles', 'Arrows'):
+        image.remove_layer(by_name(image, name))
+    good, group, message = pop_up(image, ['regions'], flats=True)
+    check(good and list(results(group)) == ['regions'], f'a finished colouring needs no scribbles {message}')
+    image.delete()
+
+
 def layers_can_be_named_by_a_script():
     image = open_people(32, ('one', 'two', 'three'))
     good, group, message = pop_up(image, ['depth'], drawing=by_name(image, 'one'), scribbles=by_name(image, 'two'),
@@ -255,6 +264,7 @@ results_are_those_of_the_command()
 a_second_run_updates_in_place()
 copies_are_the_artists()
 input_without_sense_is_refused()
+flat_colours_are_scribbles_by_themselves()
 layers_can_be_named_by_a_script()
 layers_found_by_name_are_found_again()
 presets_are_those_of_the_command()
