@@ -59,6 +59,18 @@ const CeldMainSetting celd_main_settings[CELD_N_MAIN_SETTINGS] = {
   { "suggest", "How layers are read", 0 },
 };
 
+/* ------------------------------------------------------------------ numbers in dialogs */
+
+CeldShownNumber
+celd_shown_number (const CeldSettingInfo *row)
+{
+  if (row->unit && !strcmp (row->unit, "degree"))
+    return (CeldShownNumber) { 1, 0, "°" };
+  if (row->type == CELD_SETTING_NUMBER && row->shown.most <= 1)
+    return (CeldShownNumber) { 100, MAX (row->shown.digits - 2, 0), "%" };
+  return (CeldShownNumber) { 1, MIN (row->shown.digits, 2), row->unit };
+}
+
 /* ------------------------------------------------------------------ texts of scripts */
 
 static gboolean

@@ -44,6 +44,12 @@ typedef struct { const char *name, *heading; int choices; } CeldMainSetting;
 #define CELD_N_MAIN_SETTINGS 17
 extern const CeldMainSetting celd_main_settings[CELD_N_MAIN_SETTINGS];
 
+/* How dialogs show a number: multiplied by this, with so many digits after the point, and this unit; NULL: it has none. */
+typedef struct { double factor; int digits; const char *unit; } CeldShownNumber;
+
+/* Fractions are percentages, angles whole degrees. */
+CeldShownNumber celd_shown_number (const CeldSettingInfo *row);
+
 /* Sets a setting of any name from a text: a number, a choice, or yes, no, true or false.  FALSE and *error if that
  * makes no sense; then nothing is changed. */
 gboolean celd_setting_read (const char *name, const char *value, CeldSettings *settings, GError **error);

@@ -56,7 +56,7 @@ set_setting (gpointer widget, double value, Dialog *dialog)
 static void
 number_changed (GtkAdjustment *adjustment, gpointer data)
 {
-  set_setting (adjustment, gtk_adjustment_get_value (adjustment), data);
+  set_setting (adjustment, gtk_adjustment_get_value (adjustment) / celd_shown_number (row_of (adjustment)).factor, data);
 }
 
 static void
@@ -84,7 +84,7 @@ show_widget (gpointer widget, gpointer data)
   guint                  bit = GPOINTER_TO_UINT (g_object_get_data (G_OBJECT (widget), "bit"));
 
   if (GTK_IS_ADJUSTMENT (widget))
-    gtk_adjustment_set_value (GTK_ADJUSTMENT (widget), value);
+    gtk_adjustment_set_value (GTK_ADJUSTMENT (widget), value * celd_shown_number (row).factor);
   else if (GIMP_IS_INT_COMBO_BOX (widget))
     gimp_int_combo_box_set_active (GIMP_INT_COMBO_BOX (widget), (int) value);
   else
@@ -149,14 +149,19 @@ pictures_frame (Dialog *dialog)
   return frame;
 }
 
+/* The label names the unit. */
 static void
 add_number (GtkTable *table, int line, const CeldSettingInfo *row, Dialog *dialog)
 {
-  GtkObject *adjustment = gimp_scale_entry_new (table, 0, line, _ (row->label), SCALE, 6,
-                                                celd_setting_get (row, &dialog->choices->settings), row->shown.least,
-                                                row->shown.most, row->shown.step, row->shown.page,
-                                                (guint) row->shown.digits, TRUE, 0, 0, _ (row->help), NULL);
+  CeldShownNumber shown = celd_shown_number (row);
+  char           *label = g_strdup_printf (shown.unit ? "%s (%s)" : "%s", _ (row->label), shown.unit);
+  GtkObject      *adjustment = gimp_scale_entry_new (table, 0, line, label, SCALE, 6,
+                                                     celd_setting_get (row, &dialog->choices->settings) * shown.factor,
+                                                     row->shown.least * shown.factor, row->shown.most * shown.factor,
+                                                     row->shown.step * shown.factor, row->shown.page * shown.factor,
+                                                     (guint) shown.digits, TRUE, 0, 0, _ (row->help), NULL);
 
+  g_free (label);
   g_object_set_data (G_OBJECT (adjustment), "row", (gpointer) row);
   g_signal_connect (adjustment, "value-changed", G_CALLBACK (number_changed), dialog);
   g_ptr_array_add (dialog->widgets, adjustment);
@@ -312,7 +317,7 @@ celd_dialog_run (gint32 image, CeldChoices *choices)
 
   gimp_ui_init ("celdepth", FALSE);
   widgets.presets = g_object_new (GIMP_TYPE_INT_COMBO_BOX, NULL);
-  dialog          = gimp_dialog_new (_ ("Pop-up"), "celdepth", NULL, 0, gimp_standard_help_func,
+  dialog          = gimp_dialog_new (_ ("Pop-up"), "celdepth", NULL, 0, NULL,
                                      "plug-in-celdepth-popup", _ ("_Cancel"), GTK_RESPONSE_CANCEL, _ ("_Make"),
                                      GTK_RESPONSE_OK, NULL);
   gtk_dialog_set_default_response (GTK_DIALOG (dialog), GTK_RESPONSE_OK);

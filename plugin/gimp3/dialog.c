@@ -139,7 +139,7 @@ fill_pictures (GimpProcedureDialog *dialog, GimpImage *image)
   gtk_flow_box_set_homogeneous (GTK_FLOW_BOX (flow), TRUE);
   gimp_procedure_dialog_get_label (dialog, "pictures-title", _ ("Make"), FALSE, FALSE);
   gimp_procedure_dialog_get_label (dialog, "few-bits", _ ("<small>The image has 8 bits, so that depth has at most 256 "
-                                                          "steps.\nFor more: Image &gt; Precision, 32-bit floating "
+                                                          "steps.\nFor more: Image &gt; Encoding, 32-bit floating "
                                                           "point.</small>"), TRUE,
                                    FALSE);
   if (celd_image_has_few_bits (image))
@@ -151,21 +151,19 @@ fill_pictures (GimpProcedureDialog *dialog, GimpImage *image)
 
 /* ------------------------------------------------------------------ settings */
 
-/* Fractions are shown as percentages; labels say so, and name units. */
+/* Labels name units. */
 static void
 use_slider (GimpProcedureDialog *dialog, GimpProcedureConfig *config, const char *name)
 {
   const CeldSettingInfo *row = celd_setting_find (name);
   const GParamSpec      *spec = g_object_class_find_property (G_OBJECT_GET_CLASS (config), name);
-  gboolean               fraction = row->shown.most <= 1;
-  GtkWidget             *entry = gimp_procedure_dialog_get_scale_entry (dialog, name, fraction ? 100 : 1);
-  const char            *unit = fraction ? "%" : !g_strcmp0 (row->unit, "degree") ? "°" : row->unit;
-  char                  *text = g_strdup_printf (unit ? "%s (%s)" : "%s", g_param_spec_get_nick ((GParamSpec *) spec),
-                                                 unit);
+  CeldShownNumber        shown = celd_shown_number (row);
+  GtkWidget             *entry = gimp_procedure_dialog_get_scale_entry (dialog, name, shown.factor);
+  char                  *text = g_strdup_printf (shown.unit ? "%s (%s)" : "%s",
+                                                 g_param_spec_get_nick ((GParamSpec *) spec), shown.unit);
 
   gtk_label_set_text_with_mnemonic (GTK_LABEL (gimp_labeled_get_label (GIMP_LABELED (entry))), text);
-  gimp_label_spin_set_digits (GIMP_LABEL_SPIN (entry), fraction ? MAX (row->shown.digits - 2, 0)
-                                                                : MIN (row->shown.digits, 2));
+  gimp_label_spin_set_digits (GIMP_LABEL_SPIN (entry), shown.digits);
   g_free (text);
 }
 
@@ -202,7 +200,8 @@ fill_shadows (GimpProcedureDialog *dialog, GimpProcedureConfig *config)
   use_sliders (dialog, config, sliders);
   gimp_procedure_dialog_get_label (dialog, "shadows-title", _ ("Shadows"), FALSE, FALSE);
   gimp_procedure_dialog_fill_box (dialog, "shadows-box", "shadow-strength", "shadow-size", "shadow-offset", NULL);
-  gimp_procedure_dialog_fill_frame (dialog, "shadows", "shadows-title", FALSE, "shadows-box");
+  gtk_widget_set_margin_top (gimp_procedure_dialog_fill_frame (dialog, "shadows", "shadows-title", FALSE, "shadows-box"),
+                             ROOM);
 }
 
 /* Suggest order needs no order. */

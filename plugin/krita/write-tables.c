@@ -80,6 +80,7 @@ static void
 write_setting (const CeldMainSetting *setting)
 {
   const CeldSettingInfo *row = celd_setting_find (setting->name);
+  CeldShownNumber        shown = celd_shown_number (row);
 
   printf ("    Setting(");
   write_text (row->name);
@@ -87,8 +88,8 @@ write_setting (const CeldMainSetting *setting)
   write_text (row->label);
   write_text (row->help);
   write_value (row, row->usual);
-  printf ("%.10g, %.10g, %.10g, %d, ", row->shown.least, row->shown.most, row->shown.step, row->shown.digits);
-  write_text (row->unit);
+  printf ("%.10g, %.10g, %.10g, %.10g, %d, ", row->shown.least, row->shown.most, row->shown.step, shown.factor, shown.digits);
+  write_text (shown.unit);
   printf ("[");
   for (size_t i = 0; i < (setting->choices ? (size_t) setting->choices : row->choices); i++)
     {

@@ -21,6 +21,7 @@ from .tables import OWN_LABEL, PICTURES, PRESETS, SETTINGS
 STEPS = {'reading': _('reading'), 'ink': _('ink'), 'labels': _('labels'), 'order': _('order'), 'levels': _('levels'),
          'depth': _('depth'), 'normals': _('normals'), 'light': _('light'), 'shade': _('shade'),
          'shadows': _('shadows'), 'writing': _('writing')}
+DIGITS = 6  # of a setting, more than any is shown with
 OWN_SETTINGS, PROGRAM, CHOICES = 'celdepth', 'program', 'choices'  # in Krita's configuration
 
 
@@ -47,11 +48,14 @@ class Field:
         self.changed = box.currentIndexChanged
 
     def make_number(self, box: QDoubleSpinBox) -> None:
-        box.setDecimals(self.setting.digits)
-        box.setRange(self.setting.least, self.setting.most)
-        box.setSingleStep(max(self.setting.step, (self.setting.most - self.setting.least) / 20))
-        box.setSuffix('°' if self.setting.unit == 'degree' else '')
-        self.widget, self.get, self.set = box, box.value, box.setValue
+        setting, factor = self.setting, self.setting.factor
+        box.setDecimals(setting.digits)
+        box.setRange(factor * setting.least, factor * setting.most)
+        box.setSingleStep(factor * max(setting.step, (setting.most - setting.least) / 20))
+        box.setSuffix(setting.unit if setting.unit in ('', '°') else ' ' + setting.unit)
+        self.widget = box
+        self.get = lambda: round(box.value() / factor, DIGITS)
+        self.set = lambda value: box.setValue(factor * value)
         self.changed = box.valueChanged
 
 

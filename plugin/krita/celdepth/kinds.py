@@ -35,6 +35,7 @@ class Setting(NamedTuple):
     least: float
     most: float
     step: float
+    factor: float           # by which the panel shows more, with these digits and this unit
     digits: int
     unit: str
     choices: List[Tuple[str, str]]  # value and label; none: it is a number
