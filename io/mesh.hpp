@@ -55,7 +55,7 @@ public:
   {
     stream.close ();
     if (!stream)
-      throw IoFailure ("there is not enough space for it.");
+      throw IoFailure (N_ ("there is not enough space for it."));
   }
 
   void commit () { file.commit (); }

@@ -4,6 +4,7 @@
  */
 #include "layer-names.h"
 
+#include <glib/gi18n.h>
 #include <string.h>
 
 /* Folded as `fold` does; English first, then German and Czech; ended by NULL. */
@@ -24,12 +25,12 @@ static const char *const titles[CELD_N_LAYERS] = {
 /* Farthest points in L*a*b* among colours of six steps a channel: each is at least 33 from every other one, and from
  * white, grey and black.  Strong colours come first. */
 const CeldLabelColour celd_label_colours[CELD_N_LABEL_COLOURS] = {
-  { 0xff0000, "Red" },       { 0x0000ff, "Blue" },      { 0x00ff00, "Green" },      { 0xffff00, "Yellow" },
-  { 0xff00ff, "Magenta" },   { 0x00ccff, "Sky" },       { 0xff9900, "Orange" },     { 0x990099, "Purple" },
-  { 0x00ffcc, "Aquamarine" }, { 0x993300, "Brown" },    { 0xff6666, "Coral" },      { 0x006699, "Petrol" },
-  { 0x669900, "Moss" },      { 0x6666ff, "Cornflower" }, { 0xffff99, "Cream" },     { 0xff0099, "Pink" },
-  { 0x339966, "Sea green" }, { 0xcc9966, "Sand" },      { 0xcc99ff, "Lilac" },      { 0x990033, "Crimson" },
-  { 0x0099ff, "Azure" },     { 0x99ff66, "Lime" },      { 0x003399, "Navy" },       { 0xcc6699, "Mallow" },
+  { 0xff0000, N_ ("Red") }, { 0x0000ff, N_ ("Blue") }, { 0x00ff00, N_ ("Green") }, { 0xffff00, N_ ("Yellow") },
+  { 0xff00ff, N_ ("Magenta") }, { 0x00ccff, N_ ("Sky") }, { 0xff9900, N_ ("Orange") }, { 0x990099, N_ ("Purple") },
+  { 0x00ffcc, N_ ("Aquamarine") }, { 0x993300, N_ ("Brown") }, { 0xff6666, N_ ("Coral") }, { 0x006699, N_ ("Petrol") },
+  { 0x669900, N_ ("Moss") }, { 0x6666ff, N_ ("Cornflower") }, { 0xffff99, N_ ("Cream") }, { 0xff0099, N_ ("Pink") },
+  { 0x339966, N_ ("Sea green") }, { 0xcc9966, N_ ("Sand") }, { 0xcc99ff, N_ ("Lilac") }, { 0x990033, N_ ("Crimson") },
+  { 0x0099ff, N_ ("Azure") }, { 0x99ff66, N_ ("Lime") }, { 0x003399, N_ ("Navy") }, { 0xcc6699, N_ ("Mallow") },
 };
 
 /* Lower case without accents, spaces at the ends, and the ending of a file. */

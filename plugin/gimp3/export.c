@@ -6,7 +6,7 @@
 
 #include "on-demand.h"
 
-#define ENDINGS ".exr, .png or .tif"
+#define ENDINGS N_ (".exr, .png or .tif")
 
 enum { SOURCE_LAYER, SOURCE_DRAWING };
 

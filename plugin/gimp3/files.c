@@ -112,12 +112,12 @@ celd_file_chosen (GimpProcedureConfig *config, gboolean (*can_write) (const char
   g_clear_object (&file);
   if (!path)
     refuse (error, _ ("No file is chosen, or it is not on this computer. Give the name of a file that ends in "
-                      "%s."), endings);
+                      "%s."), _ (endings));
   else if (!celd_io_load (&why))
     refuse (error, "%s", why.text);
   else if (!can_write (path))
     g_set_error (error, CELD_PIPELINE_ERROR, CELD_PIPELINE_FAILED,
-                 _ ("\"%s\" cannot be written: its name must end in %s."), path, endings);
+                 _ ("\"%s\" cannot be written: its name must end in %s."), path, _ (endings));
   else if (check_folder (path, error))
     return path;
   g_free (path);

@@ -6,7 +6,7 @@
 
 #include "on-demand.h"
 
-#define ENDINGS ".glb, .obj, .ply or .stl"
+#define ENDINGS N_ (".glb, .obj, .ply or .stl")
 
 static gboolean
 can_write (const char *path)

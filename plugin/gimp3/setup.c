@@ -42,7 +42,7 @@ get_palette (void)
       GeglColor *colour = label_colour (i);
       int        entry;
 
-      gimp_palette_add_entry (palette, celd_label_colours[i].name, colour, &entry);
+      gimp_palette_add_entry (palette, _ (celd_label_colours[i].name), colour, &entry);
       g_object_unref (colour);
     }
   return palette;

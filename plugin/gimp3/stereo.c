@@ -90,7 +90,7 @@ write_image (CeldPipeline *pipeline, GimpImage *like, GimpProcedureConfig *confi
   for (gsize i = 0; i < G_N_ELEMENTS (layers) && good; i++)
     if (wanted_layers (config) & 1u << layers[i].picture)
       {
-        GimpLayer  *layer = gimp_layer_new (image, layers[i].name, gimp_image_get_width (image),
+        GimpLayer  *layer = gimp_layer_new (image, _ (layers[i].name), gimp_image_get_width (image),
                                             gimp_image_get_height (image), layers[i].type, 100, GIMP_LAYER_MODE_NORMAL);
         GeglBuffer *buffer = gimp_drawable_get_buffer (GIMP_DRAWABLE (layer));
 
