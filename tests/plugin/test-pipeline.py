@@ -12,10 +12,11 @@ import sys
 import tempfile
 
 import numpy as np
-from PIL import Image
+from PIL import Image, ImageDraw
 
 EXAMPLES = os.path.join(os.path.dirname(os.path.abspath(__file__)), '..', '..', 'examples')
-DRAWINGS = {'people': ['scribbles', 'arrows'], 'frog': ['scribbles', 'arrows'], 'armadillo': ['scribbles', 'contours']}
+DRAWINGS = {'people': ['scribbles', 'arrows'], 'frog': ['scribbles', 'arrows'], 'armadillo': ['scribbles', 'contours'],
+            'all layers': []}
 OPTIONS = {'levels': 'levels', 'depth': 'depth', 'normals': 'normals', 'shading': 'shading', 'lit': 'shaded',
            'enhanced': 'enhanced'}
 ERROR = 1 / 65535
@@ -49,6 +50,22 @@ def pipeline(files, out, shape):
                    env=os.environ | sanitizer)
     return {name: np.fromfile(f'{out}/{name}.raw', np.float32).reshape(*shape, 4).astype(float)
             for name in [*OPTIONS, 'regions', 'suggestions', 'left', 'right']}
+
+
+def all_layers(out):
+    """A drawing with every kind of layer, as files."""
+    files = {name: f'{out}/{name}.png' for name in ('drawing', 'scribbles', 'arrows', 'contours', 'corrections', 'hidden')}
+    for name in ('drawing', 'scribbles', 'arrows'):
+        picture = Image.open(os.path.join(EXAMPLES, 'people', name + '.png')).convert('RGBA')
+        picture.save(files[name])
+    red, middle = (255, 0, 0), (111, 184, 9) # the colour of the body in the middle, which the left one hides
+    strokes = {'contours': ((30, 720, 480, 720), red), 'corrections': ((370, 560, 420, 610), middle),
+               'hidden': ((330, 650, 440, 650), middle)}
+    for name, (line, colour) in strokes.items():
+        layer = Image.new('RGBA', picture.size)
+        ImageDraw.Draw(layer).line(line, colour, 11)
+        layer.save(files[name])
+    return files
 
 
 def same_bytes(found, wanted):
@@ -94,8 +111,14 @@ def main():
     passed = failed = 0
     for drawing, layers in DRAWINGS.items():
         with tempfile.TemporaryDirectory() as out:
-            files = {name: os.path.join(EXAMPLES, drawing, name + '.png') for name in ['drawing', *layers]}
+            files = {name: os.path.join(EXAMPLES, drawing, name + '.png') for name in ['drawing', *layers]} if layers \
+                else all_layers(out)
             wanted = command(files, out)
+            for name in () if layers else files.keys() - {'drawing', 'scribbles'}:
+                without = command({other: path for other, path in files.items() if other != name}, out)
+                good = any(not np.array_equal(wanted[picture], without[picture]) for picture in wanted)
+                passed, failed = passed + good, failed + (not good)
+                print(f'{"ok  " if good else "FAIL"} the layer with {name} counts')
             found = pipeline(files, out, wanted['depth'].shape[:2])
             for name, picture in wanted.items():
                 picture = channels(picture)
