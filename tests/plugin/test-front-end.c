@@ -38,6 +38,24 @@ settings_by_name (void)
 }
 
 static void
+numbers_have_units (void)
+{
+  static const struct { const char *name; CeldShownNumber shown; } expected[] = {
+    { "ambient", { 100, 0, "%" } },  { "shadow-size", { 100, 2, "%" } }, { "light-azimuth", { 1, 0, "°" } },
+    { "bulge", { 1, 2, NULL } },     { "toon-steps", { 1, 0, NULL } },   { "mesh-size", { 1, 1, "mm" } },
+  };
+
+  for (size_t i = 0; i < G_N_ELEMENTS (expected); i++)
+    {
+      CeldShownNumber found = celd_shown_number (celd_setting_find (expected[i].name));
+
+      NEAR (found.factor, expected[i].shown.factor, 0);
+      NEAR (found.digits, expected[i].shown.digits, 0);
+      CHECK (!g_strcmp0 (found.unit, expected[i].shown.unit));
+    }
+}
+
+static void
 nonsense_is_refused (void)
 {
   static const char *const wrong[] = {
@@ -82,6 +100,7 @@ main (void)
 {
   RUN (pictures_by_name);
   RUN (settings_by_name);
+  RUN (numbers_have_units);
   RUN (nonsense_is_refused);
   RUN (tables_are_whole);
   return DONE;

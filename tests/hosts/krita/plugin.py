@@ -296,6 +296,8 @@ def check_presets():
     panel = docker.Docker()
     panel.show_choices(popup.Choices.usual())
     check(panel.presets.currentText() == 'Everyday', f'the defaults are a preset: {panel.presets.currentText()}')
+    texts = [panel.fields[name].widget.text() for name in ('ambient', 'shadow-size', 'light-azimuth', 'bulge')]
+    check(texts == ['25 %', '1.20 %', '135°', '1.00'], f'numbers have their units: {texts}')
     for index in (2, 4, 1):
         panel.presets.setCurrentIndex(index)
         panel.presets.activated.emit(index)
