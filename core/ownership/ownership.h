@@ -1,7 +1,8 @@
 /* Contour ownership: which label each pixel belongs to, ink included.
  *
  *   contour-edges.c        traces the edges of ink and measures how thick the ink is
- *   contour-pens.c         finds the region whose pen drew the ink next to each point of an edge
+ *   contour-pens.c         reads the labels beside each point of an edge, and keeps pens up to date
+ *   contour-owners.c       finds the region whose pen drew the ink next to each point
  *   pen-width.c            estimates the width of each pen
  *   claims.c               assigns ink to the pens that cover it
  *   claim-remainder.c      assigns the pixels that no pen covers
@@ -180,6 +181,11 @@ void celd_label_list_add (uint32_t label, CeldLabelList *list);
 /* Has the order of any two of these labels changed between two labellings?  That of labels that are new, or too many to
  * be listed, counts as changed. */
 bool celd_label_order_changed (const CeldLabelList *list, const CeldContourPens *old, const CeldContourPens *new);
+
+/* ------------------------------------------------------------------ contour-owners.c */
+
+/* Finds the owners of a loop's points, whose labels and widths are known; `distance` is work space of loop->n numbers. */
+void celd_contour_owners_find (const CeldEdgeLoop *loop, CeldContourPens *pens, float *distance);
 
 /* ------------------------------------------------------------------ pen-width.c */
 
