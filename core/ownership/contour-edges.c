@@ -15,11 +15,13 @@
 
 #define IS_INK        1     /* bits of a pixel's flags */
 #define FOLLOWED      2     /* the edge above the pixel has been followed */
+#define NEAR_CORNER   4     /* paper beside an edge that turns sharply nearby */
 #define NORMAL_RADIUS 3     /* points to either side over which the normal is measured; chosen */
 #define MAX_THICKNESS 512   /* pixels; thicker ink is no contour; chosen */
 #define CORNER_COSINE 0.82f /* cosine of the least turn at a corner; chosen */
 #define TURN_RADIUS   4     /* points to either side over which the turn is measured; chosen */
 #define SKEW_RADIUS   3     /* points beside a corner whose normals are unreliable; chosen */
+#define BESIDE_CORNER 8     /* points to either side of a corner that are near it; chosen */
 
 /* The flags have a margin of one pixel. */
 typedef struct
@@ -154,6 +156,21 @@ find_corners (CeldEdgePoint *point, size_t n)
       }
 }
 
+/* Marks the paper along the edge near its corners. */
+static void
+mark_corners (const EdgeTracer *t, const CeldEdgePoint *point, size_t n)
+{
+  for (size_t i = 0; i < n; i++)
+    if (point[i].corner)
+      for (size_t k = 0; k <= 2 * BESIDE_CORNER; k++)
+        {
+          int32_t paper = point[(i + k + n - BESIDE_CORNER % n) % n].paper;
+
+          if (paper >= 0)
+            *flags_at (t, paper % t->ink->width, paper / t->ink->width) |= NEAR_CORNER;
+        }
+}
+
 /* ------------------------------------------------------------------ normals and thickness */
 
 static void
@@ -221,8 +238,9 @@ measure_thickness (const EdgeTracer *t, CeldEdgePoint *p)
         return;
       if (!(*flags_at (t, x, y) & IS_INK))
         {
-          p->across  = y * t->ink->width + x;
-          p->thickness = fmaxf (find_crossing (t->ink, p, s - 1, s + 0.5f), 0.5f);
+          p->across       = y * t->ink->width + x;
+          p->faces_corner = *flags_at (t, x, y) & NEAR_CORNER;
+          p->thickness    = fmaxf (find_crossing (t->ink, p, s - 1, s + 0.5f), 0.5f);
           return;
         }
     }
@@ -237,9 +255,10 @@ measure_all (const EdgeTracer *t, const CeldHost *host)
     {
       find_corners (&e->point[e->loop[k].first], e->loop[k].n);
       find_normals (&e->point[e->loop[k].first], e->loop[k].n);
-      for (size_t i = 0; i < e->loop[k].n; i++)
-        measure_thickness (t, &e->point[e->loop[k].first + i]);
+      mark_corners (t, &e->point[e->loop[k].first], e->loop[k].n);
     }
+  for (size_t i = 0; i < e->n_points; i++)
+    measure_thickness (t, &e->point[i]);
   return celd_progress (host, 1);
 }
 

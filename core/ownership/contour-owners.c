@@ -6,6 +6,9 @@
  * paper's own label if a nearer region lies on its outline and the rest of the thickness fits its pen, or a line inside
  * the paper's label touches that region's outline; else the nearer label.
  *
+ * Where an outline ends, its owner has the tip beyond only if the region's paper has a corner there: both sides of the
+ * outline meet behind it.  Where the paper goes on straight, a line of another owner leaves the outline.
+ *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "ownership/ownership.h"
@@ -16,6 +19,7 @@
 #define THICKNESS_TOLERANCE 0.5f  /* pixels by which thickness may be off; chosen */
 #define MAX_SLANT           1.5f  /* pen widths that a normal may run through a line at a slant; chosen */
 #define TIP_WIDTHS          6.f   /* pen widths that the two sides of an outline run on to their common tip; chosen */
+#define FACING_POINTS       4     /* points before an outline ends that may face the corner of its paper; chosen */
 #define SPECK_POINTS        8     /* the edge of a speck of paper has at most so many points, */
 #define SPECK_STROKES       4     /* and less than so many times the drawing's line width; chosen */
 
@@ -63,6 +67,15 @@ shows_own_line (const CeldContourPens *pens, const CeldEdgePoint *p, const CeldE
          shows_back_line (pens, p, pen);
 }
 
+/* Does a label lie behind the front label, or is it that? */
+static bool
+is_behind_front (const CeldContourPens *pens, const CeldEdgePen *pen, uint32_t label)
+{
+  uint32_t front = celd_pen_front (pens, pen);
+
+  return front && pens->level[label - 1] <= pens->level[front - 1];
+}
+
 /* May a point take the owner of another one at that distance along the edge?  A line inside a region, or a nearer line
  * that covers the ink between two regions, ends where both sides of its outline meet; between two regions it cannot
  * be where their own lines are seen. */
@@ -70,9 +83,7 @@ static bool
 accepts_owner (const CeldContourPens *pens, const CeldEdgePoint *p, const CeldEdgePen *pen, const CeldEdgePen *from,
                float distance)
 {
-  uint32_t front = celd_pen_front (pens, pen);
-
-  return (front && pens->level[from->owner - 1] <= pens->level[front - 1]) ||
+  return is_behind_front (pens, pen, from->owner) ||
          (distance < TIP_WIDTHS * from->width && !shows_own_line (pens, p, pen));
 }
 
@@ -104,6 +115,26 @@ fits_both (const CeldContourPens *pens, const CeldEdgePoint *p, const CeldEdgePe
   return front && p->thickness <= MAX_SLANT * pens->typical_width[front - 1] + width + THICKNESS_TOLERANCE;
 }
 
+/* Does the outline of a's owner end between neighbours a and b, so that at b it would be its tip?  Not at the picture's
+ * frame. */
+static bool
+leaves_outline (const CeldContourPens *pens, const CeldEdgePen *a, const CeldEdgePen *b)
+{
+  return celd_pen_front (pens, a) == a->owner && !is_behind_front (pens, b, a->owner) && b->near && b->far;
+}
+
+/* Does the other side of the ink turn sharply just before b, as it does where both sides of an outline meet? */
+static bool
+faces_corner (const CeldEdgeLoop *loop, const CeldEdgePoint *point, size_t a, size_t b)
+{
+  size_t back = b == (a + 1) % loop->n ? loop->n - 1 : 1;
+
+  for (size_t k = 0; k <= FACING_POINTS; k++)
+    if (point[(a + k * back) % loop->n].faces_corner)
+      return true;
+  return false;
+}
+
 /* Does point b take the owner of its neighbour a, `distance` from the point that a has it from? */
 static bool
 takes_owner (const CeldContourPens *pens, const CeldEdgeLoop *loop, size_t a, size_t b, OwnerSpread spread,
@@ -116,8 +147,11 @@ takes_owner (const CeldContourPens *pens, const CeldEdgeLoop *loop, size_t a, si
     return accepts_owner_round_corner (pens, &point[b], &pen[b], pen[a].owner);
   if (point[a].corner)
     return false;
-  return spread == FROM_INSIDE ? pen[a].owner == pen[b].near && fits_both (pens, &point[b], &pen[a], &pen[b])
-                               : accepts_owner (pens, &point[b], &pen[b], &pen[a], distance);
+  if (spread == FROM_INSIDE)
+    return pen[a].owner == pen[b].near && fits_both (pens, &point[b], &pen[a], &pen[b]);
+  if (leaves_outline (pens, &pen[a], &pen[b]) && !faces_corner (loop, point, a, b))
+    return false;
+  return accepts_owner (pens, &point[b], &pen[b], &pen[a], distance);
 }
 
 /* Points without an owner take that of the nearest point along the edge that has one.  `distance` gets the distance to

@@ -104,6 +104,7 @@ typedef struct
                                  * = outside the picture */
   bool    corner;               /* the edge turns sharply here */
   bool    skewed;               /* a corner is so close that the normal is unreliable */
+  bool    faces_corner;         /* the edge on the other side of the ink turns sharply near there */
 } CeldEdgePoint;
 
 /* A closed edge: the points first .. first + n - 1, in an order that has paper on the right. */

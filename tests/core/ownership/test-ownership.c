@@ -185,6 +185,40 @@ a_tip_ends_where_its_line_turns (void)
     }
 }
 
+/* A line of the head, 2, leaves the outline of the hair, 3, at an angle of 20 degrees: one side of the outline runs on
+ * into it as if it were the tip of the hair.  But the hair's paper has no corner there, and the line is the head's. */
+static void
+a_line_that_leaves_an_outline_is_no_tip (void)
+{
+  const uint32_t level[3] = { 0, 1, 2 };
+  const double   c = cos (20 * atan (1) / 45), s = sin (20 * atan (1) / 45);
+  CeldPlane      ink;
+  CeldLabels     labels;
+  CeldOwnership  own;
+  int            wrong = 0;
+
+  CHECK (celd_plane_new (180, 200, &ink) == CELD_OK && celd_labels_new (180, 200, &labels) == CELD_OK);
+  CHECK (celd_ownership_new (180, 200, &own) == CELD_OK);
+  for (int y = 0; y < 200; y++)
+    for (int x = 0; x < 180; x++)
+      {
+        double across = (x + 0.5 - 68) * c - (y + 0.5 - 70) * s;
+        bool   head = x >= 20 && x < 160 && y >= 20 && y < 180;
+        bool   line = x < 28 || x >= 152 || y < 28 || y >= 172 || (x >= 64 && x < 72) || (y >= 70 && fabs (across) < 4);
+
+        CELD_AT (&ink, x, y)    = !(head && line);
+        CELD_AT (&labels, x, y) = !head ? 1 : x < 68 ? 3 : 2;
+      }
+  CHECK (celd_own (&ink, &labels, level, 3, NULL, CELD_EXPANSION_OUTLINES, NULL, &own) == CELD_OK);
+  for (int y = 96; y < 170; y++) /* they part at 93 */
+    for (int x = 28; x < 150; x++)
+      wrong += CELD_AT (&own.owner, x, y) != (x < 72 ? 3 : 2);
+  CHECK (wrong == 0);
+  celd_ownership_clear (&own);
+  celd_free (ink.data);
+  celd_free (labels.data);
+}
+
 /* ------------------------------------------------------------------ known answers */
 
 /* '#' is ink, letters are paper of that label; labels in alphabetical order are from back to front. */
@@ -501,6 +535,7 @@ main (void)
   RUN (a_pen_is_measured_where_it_is_alone);
   RUN (side_by_side_each_has_its_line);
   RUN (a_tip_ends_where_its_line_turns);
+  RUN (a_line_that_leaves_an_outline_is_no_tip);
   RUN (a_contour_is_the_nearer_regions);
   RUN (ink_within_a_region_is_its_own);
   RUN (a_line_inside_keeps_its_ink_beside_an_outline);
