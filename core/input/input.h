@@ -2,7 +2,8 @@
  *
  *   scribble-opacity.c   which pixels are opaque enough to be paint
  *   scribble-colours.c   counts the colours of a layer, and cleans them where it was stored with loss
- *   scribble-loss.c      finds thin strokes whose chroma a codec has smeared
+ *   scribble-loss.c      restores thin strokes whose chroma a codec has smeared
+ *   scribble-pieces.c    finds these strokes by luma, block by block
  *   scribble-unmix.c     what colours these strokes had
  *   scribble-clusters.c  which colours are labels
  *   scribble-overlaps.c  which are only mixtures of two strokes that cross
@@ -101,8 +102,8 @@ CeldStatus celd_scribble_paint (CeldScribbleLayer *r);
 /* scribble-colours.c: fills in id, colour, paper, radius and lossy; label and kind are used as work space. */
 CeldStatus celd_scribble_colours (CeldScribbleLayer *r, bool flats, const CeldHost *host);
 
-/* scribble-loss.c: does much of the chroma of strokes on white paper lie beside them? */
-bool celd_scribble_smeared (const CeldScribbleLayer *r);
+/* scribble-loss.c: are strokes on white paper so thin that smeared chroma leaves little of their colour? */
+bool celd_scribble_thin (const CeldScribbleLayer *r);
 
 /* scribble-loss.c: paints the strokes of a picture with smeared chroma flat, in the colours that they had, on flat
  * paper. */
@@ -124,6 +125,9 @@ CeldStatus celd_scribble_cluster_add (CeldScribbleLayer *r, uint32_t colour);
 CeldStatus celd_scribble_places (CeldScribbleLayer *r, const CeldHost *host);
 
 /* ------------------------------------------------------------------ scribbles stored with loss */
+
+#define CELD_BLOCK          16  /* pixels, side of the blocks of chroma at half size; JPEG */
+#define CELD_FAINT_CONTRAST 12  /* steps of 1/255; paper has no more; chosen */
 
 /* The connected component of a stroke within one block.  Colours are deficits: by how much each channel is below that
  * of paper. */
@@ -164,6 +168,28 @@ celd_deficit_luma (const double *d)
 {
   return 0.299 * d[0] + 0.587 * d[1] + 0.114 * d[2];
 }
+
+/* By how much each channel of a pixel is below that of paper. */
+static inline void
+celd_loss_deficit (const CeldScribbleLayer *r, int x, int y, int *d)
+{
+  const uint8_t *p = CELD_RGBA (r->paint, x, y);
+
+  for (int i = 0; i < 3; i++)
+    d[i] = r->colour[r->paper].channel[i] - p[i];
+}
+
+static inline int
+celd_loss_luma (const int *d)
+{
+  return (77 * d[0] + 150 * d[1] + 29 * d[2] + 128) >> 8;
+}
+
+/* scribble-pieces.c: fills in piece, with its block, contact, and label and kind of the layer. */
+CeldStatus celd_scribble_pieces (CeldLossStrokes *s, const CeldHost *host);
+
+/* scribble-pieces.c: does none of the eight neighbours have clearly more contrast? */
+bool celd_loss_is_core (const CeldScribbleLayer *r, int x, int y);
 
 /* scribble-unmix.c: fills in stroke and colour of the pieces, whose core, coverage and block are known. */
 CeldStatus celd_scribble_unmix (CeldLossStrokes *s, const CeldHost *host);

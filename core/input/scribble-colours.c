@@ -1,8 +1,8 @@
 /* The exact colours of a painted layer, after noise has been removed.
  *
  * Colours are counted in a hash table.  Neighbouring pixels of one stroke have one colour in an ordinary layer; if they
- * differ by small amounts of either sign, the picture was stored with loss (JPEG).  It is restored if its chroma is
- * smeared, else filtered, and its colours are counted again.  In a picture without alpha the commonest colour is paper.
+ * differ by small amounts of either sign, the picture was stored with loss (JPEG).  It is restored if its strokes are
+ * thin, else filtered, and its colours are counted again.  In a picture without alpha the commonest colour is paper.
  *
  * Cost: O(pixels); for a lossy picture 8 bytes a pixel more while it is filtered.
  *
@@ -276,18 +276,18 @@ filter (const CeldScribbleLayer *r, CeldPaint *buffer, const CeldHost *host)
   return status;
 }
 
-/* Counts the colours again, in a restored (if smeared) or filtered copy. */
+/* Counts the colours again, in a restored (if strokes are thin) or filtered copy. */
 static CeldStatus
-clean (CeldScribbleLayer *r, bool smeared, bool flats, const CeldHost *host)
+clean (CeldScribbleLayer *r, bool thin, bool flats, const CeldHost *host)
 {
   CeldHostPart part;
   CeldHost     again = celd_host_part (&part, host, 0.8, 1);
   CeldPaint    buffer[2] = { { r->width, r->height, (size_t) r->width, celd_alloc (r->pixels, 4) },
-                             { r->width, r->height, (size_t) r->width, smeared ? NULL : celd_alloc (r->pixels, 4) } };
-  CeldStatus   status = buffer[0].data && (smeared || buffer[1].data) ? CELD_OK : CELD_NO_MEMORY;
+                             { r->width, r->height, (size_t) r->width, thin ? NULL : celd_alloc (r->pixels, 4) } };
+  CeldStatus   status = buffer[0].data && (thin || buffer[1].data) ? CELD_OK : CELD_NO_MEMORY;
 
   if (status == CELD_OK)
-    status = smeared ? celd_scribble_restore (r, host, &buffer[0]) : filter (r, buffer, host);
+    status = thin ? celd_scribble_restore (r, host, &buffer[0]) : filter (r, buffer, host);
   if (status == CELD_OK)
     {
       const CeldPaint *stored = r->paint;
@@ -310,7 +310,6 @@ celd_scribble_colours (CeldScribbleLayer *r, bool flats, const CeldHost *host)
   CeldHostPart part[2];
   CeldHost     count = celd_host_part (&part[0], host, 0, 0.3), rest = celd_host_part (&part[1], host, 0.3, 1);
   CeldStatus   status;
-  bool         smeared;
 
   if (!celd_reserve (&r->colour, 1, &r->colour_capacity, sizeof *r->colour))
     return CELD_NO_MEMORY;
@@ -320,8 +319,7 @@ celd_scribble_colours (CeldScribbleLayer *r, bool flats, const CeldHost *host)
   if (status != CELD_OK)
     return status;
   measure_noise (r);
-  smeared = r->radius >= 2 * CLEAN_RADIUS && celd_scribble_smeared (r);
-  if (!smeared && r->radius <= (r->paper ? SOFT_RADIUS : 2 * CLEAN_RADIUS))
+  if (r->radius <= (r->paper ? SOFT_RADIUS : 2 * CLEAN_RADIUS))
     return CELD_OK;
-  return clean (r, smeared, flats, &rest);
+  return clean (r, celd_scribble_thin (r), flats, &rest);
 }
