@@ -254,7 +254,7 @@ check (CliOptions *options)
     return cli_error ("With --drawing the input is levels: give scribbles, arrows, relations, corrections, what is "
                       "hidden and a report with the drawing as input, without --drawing.");
   if (!options->drawing && (options->regions || options->smooth_depth))
-    return cli_error ("--regions and --depth need levels as input, and their --drawing.");
+    return cli_error ("--regions and --smooth-depth need levels as input, and their --drawing.");
   return true;
 }
 
@@ -266,7 +266,7 @@ const CliCommand cli_relief_command = {
   .examples = "  celdepth relief bee.png --scribbles strokes.png --arrows arrows.png --mesh bee.glb\n"
               "  celdepth relief page.psd --mesh page.stl --mesh-size 80\n"
               "  celdepth relief levels.npy --drawing bee.png --regions flat.png --colours art.png --mesh bee.glb\n"
-              "  celdepth relief levels.npy --drawing bee.png --depth depth.npy --height height.exr",
+              "  celdepth relief levels.npy --drawing bee.png --smooth-depth depth.npy --height height.exr",
   .settings = CLI_SETTINGS_OF_LABELS " on-cycle suggest expansion hold-gaps tolerance relief-bulge relief-from "
               "relief-depth mesh-kind mesh-size mesh-plate mesh-error most-vertices",
   .output   = "mesh",
