@@ -119,6 +119,35 @@ celd_buffer_has_hue (GeglBuffer *buffer)
   return 100 * hued > (gsize) extent->width * (gsize) extent->height;
 }
 
+static gboolean
+is_float (const Babl *format)
+{
+  const Babl *type = babl_format_get_type (format, 0);
+
+  return type == babl_type ("float") || type == babl_type ("half") || type == babl_type ("double");
+}
+
+gboolean
+celd_buffer_has_numbers (GeglBuffer *buffer)
+{
+  const GeglRectangle *extent = gegl_buffer_get_extent (buffer);
+  GeglRectangle        row = { extent->x, extent->y, extent->width, 1 };
+  gboolean             finite = TRUE;
+  float               *rgba;
+
+  if (!is_float (gegl_buffer_get_format (buffer)))
+    return TRUE;
+  rgba = g_new (float, 4 * (gsize) row.width);
+  for (; finite && row.y < extent->y + extent->height; row.y++)
+    {
+      get (buffer, &row, "RGBA float", GEGL_ABYSS_NONE, rgba);
+      for (const float *p = rgba; p < rgba + 4 * (gsize) row.width; p += 4)
+        finite = finite && isfinite (p[3]) && (p[3] <= 0 || (isfinite (p[0]) && isfinite (p[1]) && isfinite (p[2])));
+    }
+  g_free (rgba);
+  return finite;
+}
+
 /* ------------------------------------------------------------------ normals */
 
 void

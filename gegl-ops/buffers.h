@@ -27,6 +27,9 @@ CeldStatus celd_buffer_read_drawing (GeglBuffer *buffer, const GeglRectangle *re
 /* Whether more than a hundredth of the buffer is in colour. */
 gboolean celd_buffer_has_hue (GeglBuffer *buffer);
 
+/* Whether all values are numbers and finite, where alpha is above 0. */
+gboolean celd_buffer_has_numbers (GeglBuffer *buffer);
+
 /* Normals as they are stored: 0.5 + 0.5 n, x to the right, y up, or down with `directx`.  `stored` has three numbers a
  * pixel. */
 void celd_normals_store (const CeldVectors *normals, gboolean directx, float *stored);

@@ -86,10 +86,12 @@ celd_op_check_scribbles (CeldOp *op, const char *drawing_pad, const CeldPaint *s
                                 "blank layer. Choose another layer."));
   if (!celd_is_grey (scribbles))
     return TRUE;
-  return celd_op_read_paint (op, drawing_pad, &drawing) &&
-         (!celd_is_coloured_strokes (&drawing) ||
-          celd_op_fail (op, _ ("The drawing looks like scribbles, and the scribbles look like a drawing. Exchange them, "
-                               "or scribble in clear colours.")));
+  if (!celd_op_new_paint (op, &drawing))
+    return FALSE;
+  celd_buffer_read_paint (celd_op_buffer (op, drawing_pad), &op->picture, &drawing);
+  return !celd_is_coloured_strokes (&drawing) ||
+         celd_op_fail (op, _ ("The drawing looks like scribbles, and the scribbles look like a drawing. Exchange them, "
+                              "or scribble in clear colours."));
 }
 
 gboolean
@@ -98,4 +100,12 @@ celd_op_check_grey (CeldOp *op, const char *pad)
   return !celd_buffer_has_hue (celd_op_buffer (op, pad)) ||
          celd_op_fail (op, _ ("The picture for '%s' (pad %s) is in colour: depth and levels are grey. Choose another "
                               "layer."), _ (celd_op_pad_label (op, pad)), pad);
+}
+
+gboolean
+celd_op_check_numbers (CeldOp *op, const char *pad)
+{
+  return celd_buffer_has_numbers (celd_op_buffer (op, pad)) ||
+         celd_op_fail (op, _ ("The picture for '%s' (pad %s) has values that are infinite or no number. Paint over them, "
+                              "or choose another layer."), _ (celd_op_pad_label (op, pad)), pad);
 }

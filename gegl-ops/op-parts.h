@@ -56,6 +56,8 @@ gboolean celd_op_check_lines     (CeldOp *op, const char *pad, const CeldDrawing
 gboolean celd_op_check_scribbles (CeldOp *op, const char *drawing_pad, const CeldPaint *scribbles);
 /* Refuses colours where there has to be depth or levels. */
 gboolean celd_op_check_grey      (CeldOp *op, const char *pad);
+/* Refuses values that are infinite or no number where they are seen. */
+gboolean celd_op_check_numbers   (CeldOp *op, const char *pad);
 
 /* ------------------------------------------------------------------ pixels.c */
 

@@ -81,7 +81,7 @@ celd_op_buffer (CeldOp *op, const char *pad)
 gboolean
 celd_op_read_plane (CeldOp *op, const char *pad, CeldPlane *plane)
 {
-  if (!celd_op_check_grey (op, pad) || !celd_op_new_plane (op, plane))
+  if (!celd_op_check_grey (op, pad) || !celd_op_check_numbers (op, pad) || !celd_op_new_plane (op, plane))
     return FALSE;
   celd_buffer_read_plane (celd_op_buffer (op, pad), &op->picture, plane);
   return TRUE;
@@ -90,7 +90,7 @@ celd_op_read_plane (CeldOp *op, const char *pad, CeldPlane *plane)
 gboolean
 celd_op_read_paint (CeldOp *op, const char *pad, CeldPaint *paint)
 {
-  if (!celd_op_new_paint (op, paint))
+  if (!celd_op_check_numbers (op, pad) || !celd_op_new_paint (op, paint))
     return FALSE;
   celd_buffer_read_paint (celd_op_buffer (op, pad), &op->picture, paint);
   return TRUE;

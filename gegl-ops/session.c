@@ -7,6 +7,8 @@
  */
 #include "op-parts.h"
 
+#include "buffers.h"
+
 static CeldSession *
 get_session (CeldOp *op)
 {
@@ -84,8 +86,9 @@ celd_op_write_problems (CeldOp *op, const char *drawing_pad)
   const CeldProblems *problems = celd_session_problems (op->operation->session);
   CeldPaint           paint;
 
-  if (!celd_op_try (op, problems ? CELD_OK : CELD_NO_MEMORY) || !celd_op_read_paint (op, drawing_pad, &paint))
+  if (!celd_op_try (op, problems ? CELD_OK : CELD_NO_MEMORY) || !celd_op_new_paint (op, &paint))
     return FALSE;
+  celd_buffer_read_paint (celd_op_buffer (op, drawing_pad), &op->picture, &paint);
   celd_problems_paint (problems, &paint);
   return celd_op_write (op, paint.data);
 }

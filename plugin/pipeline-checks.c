@@ -25,10 +25,19 @@ read_paint (const CeldPipeline *p, const CeldPipelineInput *input, CeldLayerRole
 }
 
 static gboolean
+check_numbers (const CeldPipelineLayer *layer, GError **error)
+{
+  return celd_buffer_has_numbers (layer->buffer) ||
+         celd_pipeline_fail (error, _ ("The layer has values that are infinite or no number. Paint over them, or choose "
+                                       "another layer."));
+}
+
+static gboolean
 check_scribbles (const CeldPipeline *p, const CeldPipelineInput *input, GError **error)
 {
   CeldPaint drawing = { 0 }, scribbles = { 0 };
-  gboolean  good = celd_pipeline_try (read_paint (p, input, CELD_LAYER_SCRIBBLES, &scribbles), error);
+  gboolean  good = check_numbers (&input->layer[CELD_LAYER_SCRIBBLES], error) &&
+                   celd_pipeline_try (read_paint (p, input, CELD_LAYER_SCRIBBLES, &scribbles), error);
 
   if (good && !celd_are_scribbles (&scribbles))
     good = celd_pipeline_fail (error, _ ("The layer with the scribbles looks like a photograph: scribbles are "
@@ -83,6 +92,7 @@ celd_pipeline_check_layers (const CeldPipeline *p, const CeldPipelineInput *inpu
 gboolean
 celd_pipeline_check_grey (const CeldPipelineLayer *layer, GError **error)
 {
-  return !celd_buffer_has_hue (layer->buffer) ||
-         celd_pipeline_fail (error, _ ("The layer is in colour: depth is grey. Choose a layer with depth or levels."));
+  if (celd_buffer_has_hue (layer->buffer))
+    return celd_pipeline_fail (error, _ ("The layer is in colour: depth is grey. Choose a layer with depth or levels."));
+  return check_numbers (layer, error);
 }

@@ -178,7 +178,7 @@ void        cli_threads_each (CliThreads *threads, int n, void (*body) (void *da
  * none. */
 bool cli_read_drawing (CeldIoFile *file, size_t part, const char *path, const CliOptions *options,
                        CeldDrawing *drawing);
-bool cli_read_paint   (CeldIoFile *file, size_t part, CeldPaint *paint);
+bool cli_read_paint   (CeldIoFile *file, size_t part, const char *path, CeldPaint *paint);
 /* Colours of a part, in linear light or encoded as sRGB; and of the first part of a file, in linear light.  Free data
  * with g_free. */
 bool cli_read_part    (CeldIoFile *file, size_t part, bool linear, CeldColours *colours);
@@ -261,8 +261,11 @@ bool cli_check_lines           (const char *path, const CeldPlane *ink);     /* 
 bool cli_check_drawing         (const char *path, const CeldDrawing *drawing, bool quiet); /* no photograph */
 bool cli_check_scribbles       (const char *path, const CeldPaint *scribbles); /* no photograph */
 bool cli_check_grey            (const char *path);                           /* of depth or levels */
+bool cli_check_numbers         (const char *path, const CeldPlane *values);  /* all are finite */
+bool cli_check_colours         (const char *path, int width, int height, const float *rgba); /* where they are seen */
 bool cli_check_levels          (const char *path, const CeldPlane *levels);  /* no photograph */
 bool cli_check_regions         (const char *path, const CeldLabels *regions, const CeldPalette *palette);
+void cli_warn_if_flat          (const char *path, const CeldPlane *levels);  /* that all levels are the same */
 
 /* ------------------------------------------------------------------ input.c, texts */
 

@@ -52,6 +52,8 @@ run_enhance (const CliOptions *options)
     {
       CeldStatus status;
 
+      if (!options->quiet)
+        cli_warn_if_flat (options->input, &levels);
       cli_run_stage (&run, "shadows");
       status = celd_enhance (&levels, &options->settings, &run.host, &change);
       good = cli_run_finish (&run, status) && write_results (options, &levels, &change, &art);

@@ -91,6 +91,37 @@ cli_check_lines (const char *path, const CeldPlane *ink)
                     path);
 }
 
+/* ------------------------------------------------------------------ values that are no numbers */
+
+/* A division by zero leaves such values in float pictures. */
+static bool
+refuse_value (const char *path, int x, int y)
+{
+  return cli_error ("\"%s\" has a pixel at %d, %d whose value is infinite or no number: paint over such pixels, or write "
+                    "the file without them.", path, x, y);
+}
+
+bool
+cli_check_numbers (const char *path, const CeldPlane *values)
+{
+  for (int y = 0; y < values->height; y++)
+    for (int x = 0; x < values->width; x++)
+      if (!isfinite (values->data[(size_t) y * values->stride + (size_t) x]))
+        return refuse_value (path, x, y);
+  return true;
+}
+
+bool
+cli_check_colours (const char *path, int width, int height, const float *rgba)
+{
+  for (int y = 0; y < height; y++)
+    for (int x = 0; x < width; x++, rgba += 4)
+      if (!isfinite (rgba[3]) ||
+          (rgba[3] > 0 && !(isfinite (rgba[0]) && isfinite (rgba[1]) && isfinite (rgba[2]))))
+        return refuse_value (path, x, y);
+  return true;
+}
+
 /* ------------------------------------------------------------------ levels */
 
 /* Of a file whose colours are encoded. */
@@ -151,4 +182,15 @@ cli_check_levels (const char *path, const CeldPlane *levels)
   return 10 * changes < 3 * n ||
          cli_error ("\"%s\" looks like a photograph: levels have one value for each part, such as popup writes them "
                     "with --levels.", path);
+}
+
+void
+cli_warn_if_flat (const char *path, const CeldPlane *levels)
+{
+  size_t n = (size_t) levels->width * (size_t) levels->height, i = 1;
+
+  while (i < n && !(fabsf (levels->data[i] - levels->data[0]) > 0))
+    i++;
+  if (i == n)
+    cli_say ("\"%s\" has the same value everywhere, so that nothing lies in front of anything.", path);
 }

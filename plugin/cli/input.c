@@ -86,7 +86,7 @@ cli_layer_read (const char *path, const char *role, CliLayers *layers, CeldPaint
   CeldIoFile *file = open_file (path);
   size_t      part = file ? cli_find_part (file, role) : 0;
   bool        good = file && check_size (file, path, layers) &&
-                     cli_read_paint (file, part == CELD_NO_INDEX ? 0 : part, paint);
+                     cli_read_paint (file, part == CELD_NO_INDEX ? 0 : part, path, paint);
 
   celd_io_close (file);
   return good;
@@ -145,7 +145,7 @@ read_input (const char *path, const CliOptions *options, CliRoles wanted, CliLay
 
         if (part == CELD_NO_INDEX && roles[i].role == CLI_SCRIBBLES && options->settings.flats)
           part = drawing;
-        good = part == CELD_NO_INDEX || cli_read_paint (file, part, paint_of (layers, roles[i].role));
+        good = part == CELD_NO_INDEX || cli_read_paint (file, part, path, paint_of (layers, roles[i].role));
       }
   celd_io_close (file);
   return good;

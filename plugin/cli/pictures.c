@@ -151,11 +151,12 @@ cli_read_drawing (CeldIoFile *file, size_t part, const char *path, const CliOpti
 }
 
 bool
-cli_read_paint (CeldIoFile *file, size_t part, CeldPaint *paint)
+cli_read_paint (CeldIoFile *file, size_t part, const char *path, CeldPaint *paint)
 {
   int     width = celd_io_width (file), height = celd_io_height (file);
   Colours colours;
-  bool    good = colours_read (file, part, "R'G'B'A u8", &colours);
+  bool    good = colours_read (file, part, "R'G'B'A u8", &colours) &&
+                 cli_check_colours (path, width, height, colours.rgba);
 
   if (good)
     {
@@ -203,7 +204,7 @@ cli_read_levels (const char *path, CeldPlane *levels)
   bool        good;
 
   if (cli_is_npy (path))
-    return cli_npy_read (path, levels);
+    return cli_npy_read (path, levels) && cli_check_numbers (path, levels);
   if (!cli_check_grey (path))
     return false;
   file = celd_io_open (path, &error);
@@ -213,7 +214,7 @@ cli_read_levels (const char *path, CeldPlane *levels)
   if (good && !celd_io_read_values (file, 0, levels->data, &error))
     good = cli_error ("%s", error.text);
   celd_io_close (file);
-  return good;
+  return good && cli_check_numbers (path, levels);
 }
 
 void

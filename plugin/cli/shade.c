@@ -102,6 +102,8 @@ read_all (const CliOptions *options, Shade *s)
   if (!cli_read_levels (options->input, &s->levels) || !cli_check_levels (options->input, &s->levels) ||
       !check_grid (options, &s->levels))
     return false;
+  if (!options->quiet)
+    cli_warn_if_flat (options->input, &s->levels);
   s->layers.width  = s->levels.width;
   s->layers.height = s->levels.height;
   return cli_layers_read (options->drawing, options, CLI_CONTOURS, &s->layers) && read_depth (options, s) &&

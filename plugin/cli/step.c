@@ -38,6 +38,8 @@ cli_step_begin (const CliOptions *options, CliStep *step)
   cli_run_begin (&step->run, options, "reading ink levels depth relief mesh writing");
   if (!cli_read_levels (options->input, &step->levels) || !cli_check_levels (options->input, &step->levels))
     return false;
+  if (!options->quiet)
+    cli_warn_if_flat (options->input, &step->levels);
   step->layers.width  = step->levels.width;
   step->layers.height = step->levels.height;
   return cli_layers_read (options->drawing, options, CLI_CONTOURS, &step->layers) &&

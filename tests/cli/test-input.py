@@ -15,8 +15,8 @@ import zlib
 import numpy as np
 from PIL import Image, ImageDraw, ImageOps, TiffImagePlugin
 
-from pictures import (HEIGHT, IN_A, IN_B, IN_PAGE, RED, RELATIONS, WIDTH, Test, at, drawing, scribbles, write_ora,
-                      write_psd)
+from pictures import (HEIGHT, IN_A, IN_B, IN_PAGE, RED, RELATIONS, WIDTH, Test, at, drawing, scribbles, write_exr,
+                      write_ora, write_psd)
 
 
 def layers():
@@ -454,6 +454,68 @@ class Photographs(Test):
                 said = self.celdepth('segment', f'{name}.jpg', '--scribbles', 'strokes.png', '--labels', 'l.png')
                 self.assertNotIn('photograph', said)
                 self.assertNotIn('hardly', said)
+
+
+class NoNumbers(Test):
+    """Float pictures with values that are infinite or no number (NaN)."""
+
+    def float_scribbles(self, name, *values):
+        """The scribbles as EXR, with some pixels set: (x, y, R, G, B, A)."""
+        paint = np.array(scribbles(), np.float32) / 255
+        paint[..., :3] = np.where(paint[..., :3] <= 0.04045, paint[..., :3] / 12.92, ((paint[..., :3] + 0.055) / 1.055)**2.4)
+        for x, y, *value in values:
+            paint[y, x] = value
+        write_exr(self.path(name), paint)
+
+    def test_scribbles(self):
+        nan, infinite = float('nan'), float('inf')
+        for i, pixel in enumerate([(nan, nan, nan, 1), (1, infinite, 0, 1), (1, 0, 0, nan)]):
+            name = f'{i}.exr'
+            self.float_scribbles(name, (30, 50, *pixel))
+            self.fails('segment', 'drawing.png', '--scribbles', name, '--labels', 'l.png',
+                       naming=f'"{name}" has a pixel at 30, 50 whose value is infinite or no number')
+
+    def test_unseen_scribbles(self):
+        """Where colours were divided by an alpha of 0 there is no paint."""
+        nan = float('nan')
+        self.float_scribbles('divided.exr', (30, 50, nan, nan, nan, 0), (31, 50, nan, nan, nan, 0))
+        self.celdepth('segment', 'drawing.png', '--scribbles', 'scribbles.png', '--labels', 'a.npy')
+        self.celdepth('segment', 'drawing.png', '--scribbles', 'divided.exr', '--labels', 'b.npy')
+        np.testing.assert_array_equal(np.load(self.path('a.npy')), np.load(self.path('b.npy')))
+
+    def test_levels_and_depth(self):
+        self.popup('--relations', RELATIONS, '--levels', 'levels.npy')
+        for i, value in enumerate([np.nan, np.inf, -np.inf]):
+            levels = np.load(self.path('levels.npy'))
+            levels[20, 30] = value
+            for name in (f'{i}.npy', f'{i}.tif'):
+                if name.endswith('npy'):
+                    np.save(self.path(name), levels)
+                else:
+                    Image.fromarray(levels).save(self.path(name))
+                says = f'"{name}" has a pixel at 30, 20 whose value is infinite or no number'
+                for command, *words in (('expand', '--levels', 'l.png'), ('smooth', '--depth', 'd.png'),
+                                        ('relief', '--height', 'h.png'), ('shade', '--shading', 's.png')):
+                    self.fails(command, name, '--drawing', 'drawing.png', *words, naming=says)
+                self.fails('enhance', name, '--view', 'v.png', naming=says)
+                self.fails('relief', 'levels.npy', '--drawing', 'drawing.png', '--smooth-depth', name, '--height', 'h.png',
+                           naming=says)
+                self.fails('shade', 'levels.npy', '--drawing', 'drawing.png', '--smooth-depth', name, '--shading', 's.png',
+                           naming=says)
+
+    def test_nothing_but_nan(self):
+        np.save(self.path('nan.npy'), np.full((HEIGHT, WIDTH), np.nan, np.float32))
+        self.fails('shade', 'nan.npy', '--drawing', 'drawing.png', '--shading', 's.png', naming='"nan.npy" has a pixel at 0, 0')
+
+    def test_flat_levels(self):
+        """May be meant, for one part alone, so that it is a warning."""
+        np.save(self.path('flat.npy'), np.full((HEIGHT, WIDTH), 2, np.float32))
+        for command, *words in (('expand', '--levels', 'l.png'), ('smooth', '--depth', 'd.png'),
+                                ('shade', '--shading', 's.png')):
+            words = [command, 'flat.npy', '--drawing', 'drawing.png', *words]
+            self.assertIn('"flat.npy" has the same value everywhere', self.celdepth(*words))
+            self.assertNotIn('everywhere', self.celdepth(*words, '--quiet'))
+        self.assertIn('"flat.npy" has the same value everywhere', self.celdepth('enhance', 'flat.npy', '--view', 'v.png'))
 
 
 class BadInput(Test):

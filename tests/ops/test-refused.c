@@ -123,6 +123,38 @@ colours_are_no_depth (void)
   CHECK (refuses ("celdepth:depth-smooth", (Pads) { { scribbles, drawing } }, "(pad input) is in colour"));
 }
 
+/* A page that is 1 everywhere but at one pixel. */
+static GeglBuffer *
+odd (float value)
+{
+  static float pixels[PIXELS];
+
+  for (int i = 0; i < PIXELS; i++)
+    pixels[i] = i == PIXELS / 2 ? value : 1;
+  return page_buffer ("Y float", "Y float", pixels);
+}
+
+/* Values that are infinite or no number are no levels, depth or scribbles; in a drawing they are paper. */
+static void
+only_numbers_are_depth (void)
+{
+  static const float value[] = { NAN, INFINITY, -INFINITY };
+
+  for (size_t i = 0; i < G_N_ELEMENTS (value); i++)
+    {
+      GeglBuffer *page = odd (value[i]);
+
+      CHECK (refuses ("celdepth:stereo", (Pads) { { drawing, page } }, "'Depth' (pad aux) has values that are infinite"));
+      CHECK (refuses ("celdepth:depth-enhance", (Pads) { { drawing, page } }, "(pad aux) has values that are infinite"));
+      be_quiet ();
+      operate ("celdepth:lumo-shade", (Pads) { { page, drawing } }, "RGBA float", result, NULL);
+      CHECK (times_said == 1 && SAYS ("(pad input) has values that are infinite"));
+      for (size_t k = 0; k < G_N_ELEMENTS (finders); k++)
+        CHECK (refuses (finders[k], (Pads) { { drawing, page } }, "(pad aux) has values that are infinite"));
+      g_object_unref (page);
+    }
+}
+
 typedef struct { GeglNode *graph, *source[2], *node; } Effect;
 
 static Effect
@@ -184,6 +216,7 @@ main (int argc, char **argv)
   RUN (blank_pages_have_no_depth);
   RUN (flats_need_no_lines);
   RUN (colours_are_no_depth);
+  RUN (only_numbers_are_depth);
   RUN (effects_look_again_when_the_drawing_changes);
   failed = DONE;
   stop_to_listen ();

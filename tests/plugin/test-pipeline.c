@@ -329,6 +329,25 @@ only_grey_layers_are_depth (void)
   CHECK (celd_pipeline_check_grey (&drawn, &error) && !error);
 }
 
+/* A layer that has a value which is no number, but for one that alpha hides. */
+static void
+only_numbers_are_depth (void)
+{
+  for (int i = 0; i < 2; i++)
+    {
+      float             pixel[2][4] = { { 1, 1, 1, 1 }, { NAN, NAN, NAN, (float) i } };
+      GeglBuffer       *buffer = gegl_buffer_new (GEGL_RECTANGLE (0, 0, 2, 1), babl_format ("RGBA float"));
+      CeldPipelineLayer layer = { buffer, 0, 0 };
+      GError           *error = NULL;
+
+      gegl_buffer_set (buffer, NULL, 0, babl_format ("RGBA float"), pixel, GEGL_AUTO_ROWSTRIDE);
+      CHECK (celd_pipeline_check_grey (&layer, &error) == (i == 0));
+      CHECK (!i || (error && strstr (error->message, "infinite or no number")));
+      g_clear_error (&error);
+      g_object_unref (buffer);
+    }
+}
+
 static void
 problems_are_told (void)
 {
@@ -367,6 +386,7 @@ main (void)
   RUN (input_without_sense_is_refused);
   RUN (other_layers_than_meant_are_refused);
   RUN (only_grey_layers_are_depth);
+  RUN (only_numbers_are_depth);
   RUN (problems_are_told);
   drop_page ();
   celd_palette_clear (&palette);
