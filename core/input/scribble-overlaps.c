@@ -4,10 +4,12 @@
  * the deficits of mixtures, colours less that of paper, are those of both strokes times factors up to 1.  On a
  * transparent layer a mixture lies between both colours.  Where the mixture is flat, both strokes are translucent, and
  * it is stronger than either: the factors add up to more than 1, or it is more opaque.  Soft brushes also leave all
- * steps from one stroke to the other and to paper; none of these is flat.
+ * steps from one stroke to the other and to paper; none of these is flat.  Where a stroke on paper crosses itself, or
+ * another of its colour, it shows its own deficit times 2 - a.
  *
- * A pixel is taken for a mixture if two strokes that it may be mixed of are seen from it, across its own colour no
- * farther than this is wide there, and a few pixels of other paint beyond.
+ * A pixel is taken for a mixture if two strokes that it may be mixed of are seen from it, or on two opposite sides the
+ * one that crosses itself, across its own colour no farther than this is wide there, and a few pixels of other paint
+ * beyond.
  *
  * Cost: O(pixels), and rays in eight directions from some hundred pixels of each label.
  *
@@ -76,6 +78,30 @@ is_mixed_on_paper (const int *paper, const int *c, const int *a, const int *b, b
       error2 += e * e;
     }
   return error2 <= MIXING_ERROR * MIXING_ERROR;
+}
+
+/* On paper: does a stroke that shows a on paper show c where it crosses itself?  Its paint has the deficit of a divided
+ * by its opacity, at most that of black. */
+static bool
+is_repeated_on_paper (const int *paper, const int *c, const int *a)
+{
+  double aa = 0, ac = 0, cc = 0, s;
+
+  for (int i = 0; i < 3; i++)
+    {
+      double u = a[i] - paper[i], w = c[i] - paper[i];
+
+      aa += u * u;
+      ac += u * w;
+      cc += w * w;
+    }
+  s = aa > 0 ? ac / aa : 0;
+  if (s < 1 + SMALLEST_PART || s > 2 - SMALLEST_PART || cc - s * ac > MIXING_ERROR * MIXING_ERROR)
+    return false;
+  for (int i = 0; i < 3; i++)
+    if (paper[i] - a[i] > (2 - s) * paper[i] + MIXING_ERROR)
+      return false;
+  return true;
 }
 
 /* On a transparent layer: does c lie between a and b? */
@@ -167,14 +193,11 @@ is_flat (const CeldScribbleLayer *r, int x, int y)
   return same >= 3;
 }
 
-/* Are two strokes seen from the pixel (x,y) of cluster k that it may be mixed of? */
-static bool
-is_mixed (const CeldScribbleLayer *r, int x, int y, uint32_t k)
+/* How many pixels of cluster k are beside (x,y) in each direction; returns twice the width of k there. */
+static int
+measure_reach (const CeldScribbleLayer *r, int x, int y, uint32_t k, int *own)
 {
-  uint32_t seen[MOST_SEEN], id = r->id[(size_t) y * (size_t) r->width + (size_t) x];
-  int      own[8], width = BROADEST;
-  size_t   n = 0;
-  bool     flat;
+  int width = BROADEST;
 
   for (int d = 0; d < 8; d += 2)
     {
@@ -185,17 +208,51 @@ is_mixed (const CeldScribbleLayer *r, int x, int y, uint32_t k)
       chord = own[d] + own[d + 1] + 1;
       width = chord < width ? chord : width;
     }
+  return 2 * width;
+}
+
+/* Is a stroke seen on two opposite sides of the pixel (x,y) of cluster k that shows its colour where it crosses
+ * itself? */
+static bool
+is_repeated (const CeldScribbleLayer *r, int x, int y, uint32_t k, const int *own, int farthest)
+{
+  const int *paper = r->colour[r->paper].channel;
+  const int *c = r->colour[r->id[(size_t) y * (size_t) r->width + (size_t) x]].channel;
+
+  for (int d = 0; d < 8; d += 2)
+    {
+      uint32_t one[MOST_SEEN], other[MOST_SEEN];
+      size_t   n = own[d] <= farthest ? look (r, x, y, d, own[d], k, one, 0) : 0;
+      size_t   m = n && own[d + 1] <= farthest ? look (r, x, y, d + 1, own[d + 1], k, other, 0) : 0;
+
+      for (size_t i = 0; i < n; i++)
+        for (size_t j = 0; j < m; j++)
+          if (one[i] == other[j] && is_repeated_on_paper (paper, c, r->cluster[one[i]].channel))
+            return true;
+    }
+  return false;
+}
+
+/* Are strokes seen from the pixel (x,y) of cluster k that it may be mixed of? */
+static bool
+is_mixed (const CeldScribbleLayer *r, int x, int y, uint32_t k)
+{
+  uint32_t seen[MOST_SEEN], id = r->id[(size_t) y * (size_t) r->width + (size_t) x];
+  int      own[8], farthest = measure_reach (r, x, y, k, own);
+  size_t   n = 0;
+  bool     flat;
+
   for (int d = 0; d < 8; d++)
-    if (own[d] <= 2 * width)
+    if (own[d] <= farthest)
       n = look (r, x, y, d, own[d], k, seen, n);
-  if (n < 2)
+  if (!n)
     return false;
   flat = is_flat (r, x, y);
   for (size_t i = 0; i < n; i++)
     for (size_t j = i + 1; j < n; j++)
       if (is_mixture (r, id, k, seen[i], seen[j], flat))
         return true;
-  return false;
+  return r->paper && flat && is_repeated (r, x, y, k, own, farthest);
 }
 
 static size_t
@@ -213,7 +270,7 @@ celd_scribble_overlaps (CeldScribbleLayer *r)
 {
   MixtureSample *of; /* of each cluster */
 
-  if (r->hard || count_labels (r) < 3)
+  if (r->hard || count_labels (r) < 2)
     return CELD_OK;
   of = celd_alloc0 (r->n_clusters, sizeof *of);
   if (!of)

@@ -97,6 +97,37 @@ a_mixture_that_lies_on_paper_is_a_label (void)
   CHECK (is_label (beside, mixed, true, 255));
 }
 
+/* C is where A, of an opacity of .4, crosses itself; and a red that A, of a paint that would have to be darker than
+ * black, cannot show. */
+static void
+a_stroke_that_crosses_itself_is_one_label (void)
+{
+  static const char *const itself[] = {
+    "BBDDDDDDAAAADDDD", "BBDDDDDDAAAADDDD", "BBDDDDDDAAAADDDD", "BBDDAAAACCCCAAAA", "BBDDAAAACCCCAAAA",
+    "BBDDAAAACCCCAAAA",
+    "BBDDAAAACCCCAAAA", "BBDDDDDDAAAADDDD", "BBDDDDDDAAAADDDD", NULL
+  };
+  int once[4][3] = { { 255, 153, 153 }, { 128, 128, 255 }, { 255, 92, 92 }, { 255, 255, 255 } };
+  int dark[4][3] = { { 255, 153, 153 }, { 128, 128, 255 }, { 255, 61, 61 }, { 255, 255, 255 } };
+  int other[4][3] = { { 255, 153, 153 }, { 128, 128, 255 }, { 255, 92, 110 }, { 255, 255, 255 } };
+
+  CHECK (!is_label (itself, once, true, 255));
+  CHECK (is_label (itself, dark, true, 255));
+  CHECK (is_label (itself, other, true, 255));
+}
+
+/* C only adjoins A: a stroke of its own, also in a colour that A would show where it crosses itself. */
+static void
+a_tint_beside_a_stroke_is_a_label (void)
+{
+  static const char *const beside[] = {
+    "BBDDDDDDDDDD", "BBDDAAAACCCC", "BBDDAAAACCCC", "BBDDAAAACCCC", "BBDDAAAACCCC", "BBDDDDDDDDDD", NULL
+  };
+  int once[4][3] = { { 255, 153, 153 }, { 128, 128, 255 }, { 255, 92, 92 }, { 255, 255, 255 } };
+
+  CHECK (is_label (beside, once, true, 255));
+}
+
 int
 main (void)
 {
@@ -104,5 +135,7 @@ main (void)
   RUN (a_mixture_without_paper_is_more_opaque);
   RUN (a_mixture_that_touches_one_stroke_is_a_label);
   RUN (a_mixture_that_lies_on_paper_is_a_label);
+  RUN (a_stroke_that_crosses_itself_is_one_label);
+  RUN (a_tint_beside_a_stroke_is_a_label);
   return DONE;
 }
