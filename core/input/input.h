@@ -83,6 +83,7 @@ typedef struct
   bool                 pixel_art;  /* it is small, and each pixel is transparent or opaque */
   CeldScribbleCluster *cluster;
   size_t               n_clusters;
+  int                  tint2;      /* squared distance from paper of the tints that loss leaves on it, at most */
   uint32_t            *head;       /* first cluster in each cell of colour space */
   size_t               colour_capacity, cluster_capacity;
 } CeldScribbleLayer;

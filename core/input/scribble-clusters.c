@@ -12,9 +12,11 @@
 #include "base/base.h"
 #include "input/input.h"
 
+#include <math.h>
 #include <stdlib.h>
 
 #define RIM_DISTANCE     40   /* of 255, from the colour of a rim to that of its stroke, at most; chosen */
+#define TINT_SHARE       0.15 /* of the strongest contrast, that loss leaves on paper, at most: ripple; chosen */
 #define SIDE_ERROR       3    /* of 255, from the side of a soft stroke to the nearest mixture, at most: rounding */
 #define MANY_CLUSTERS    4096 /* more are a photograph, where rims are not looked for; chosen */
 
@@ -186,7 +188,23 @@ visit_touches (const CeldScribbleLayer *r, MayBePart may_be_part, Parent *parent
 static bool
 is_tint (const CeldScribbleLayer *r, const CeldScribbleCluster *c)
 {
-  return r->paper && celd_colour_distance (c->channel, r->colour[r->paper].channel) <= RIM_DISTANCE * RIM_DISTANCE;
+  return r->paper && celd_colour_distance (c->channel, r->colour[r->paper].channel) <= r->tint2;
+}
+
+/* Finds how strong tints can be, by the strongest colour; all strokes may be pale. */
+static void
+measure_tints (CeldScribbleLayer *r)
+{
+  int most2 = 0;
+
+  for (size_t k = 1; k < r->n_clusters; k++)
+    {
+      int contrast2 = celd_colour_distance (r->cluster[k].channel, r->colour[r->paper].channel);
+
+      if (r->cluster[k].interior >= CELD_LEAST_DOT && contrast2 > most2)
+        most2 = contrast2;
+    }
+  r->tint2 = (int) fmin (TINT_SHARE * TINT_SHARE * most2, RIM_DISTANCE * RIM_DISTANCE);
 }
 
 /* Merges clusters with those that they often touch and may be a part of, unless the picture is clean and the cluster
@@ -298,7 +316,10 @@ celd_scribble_clusters (CeldScribbleLayer *r, const CeldHost *host)
   for (size_t i = 1; i < r->n && status == CELD_OK; i++)
     r->colour[i].cluster = is_paper (r, &r->colour[i]) ? 0 : nearest_cluster (r, r->colour[i].channel);
   if (status == CELD_OK)
-    tally_clusters (r);
+    {
+      tally_clusters (r);
+      measure_tints (r);
+    }
   if (status == CELD_OK && r->n_clusters <= MANY_CLUSTERS)
     {
       for (size_t k = 1; k < r->n_clusters && !r->lossy; k++)

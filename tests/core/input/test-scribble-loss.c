@@ -257,6 +257,36 @@ near_colours_of_soft_strokes_stay_apart (void)
   CHECK ((pixels[0][0] == all[0] && pixels[1][1] == all[1]) || (pixels[0][1] == all[0] && pixels[1][0] == all[1]));
 }
 
+/* Pale strokes, 38 from paper, are no tint of loss where no stroke is stronger: their middle is theirs. */
+static void
+pale_strokes_are_labels (void)
+{
+  static const uint8_t pale[2][3] = { { 255, 228, 228 }, { 228, 228, 255 } };
+  size_t               right = 0, all = 0;
+
+  memset (paint_of, 255, sizeof paint_of);
+  memset (painted, 0, sizeof painted);
+  for (int k = 0; k < 2; k++)
+    for (int y = 20 + 40 * k; y < 36 + 40 * k; y++)
+      for (int x = 20; x < 300; x++)
+        {
+          memcpy (paint_of[y][x], pale[k], 3);
+          painted[y][x] = y >= 24 + 40 * k && y < 32 + 40 * k ? (uint32_t) k + 1 : 0;
+        }
+  store (1, 4);
+  read_paint ();
+  NEAR (palette.n, 2, 0);
+  for (int p = 0; p < W * H; p++)
+    if (painted[p / W][p % W])
+      {
+        uint32_t seed = seed_of[p / W][p % W];
+
+        all++;
+        right += seed && off (palette.item[seed - 1].colour, pale[painted[p / W][p % W] - 1]) < 12;
+      }
+  CHECK (100 * right > 95 * all);
+}
+
 int
 main (void)
 {
@@ -265,6 +295,7 @@ main (void)
   RUN (thin_strokes_are_told_from_broad);
   RUN (only_white_paper_is_restored);
   RUN (near_colours_of_soft_strokes_stay_apart);
+  RUN (pale_strokes_are_labels);
   celd_palette_clear (&palette);
   return DONE;
 }
