@@ -2,7 +2,8 @@
  *
  * Bridges cut paper that is one: what is one part of the drawing without them stays one component, and enclosures are
  * joined over all but the bridges of narrow gaps (basins.c).  A bridge from a single end to the ink ahead is a mere
- * guess, so it parts nothing but basins.
+ * guess, so it parts nothing but basins; but where a line stops short of another one, and the parts on both sides are
+ * wider than that gap, the page with bridges as lines has two rooms there.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -13,30 +14,115 @@
 #include <math.h>
 #include <string.h>
 
-#define GAP 2.0 /* stroke widths: over shorter bridges enclosures are not joined */
+#define GAP        2.0  /* stroke widths: over shorter bridges enclosures are not joined */
+#define ROOM_WIDER 1.25 /* times as wide as the gap, plus a pixel: clearly wider (chosen, as in basins.c) */
+#define BEYOND_FRAME INT32_MAX /* wider than the page */
 
-/* Joins the parts on both sides of bridges that are longer than `length` pixels or have one end only: those hold no
- * paint back. */
-static void
-join (const CeldBridges *bridges, double length, const CeldPlane *ink, const CeldBasins *basins, const uint32_t *part,
-      uint32_t *parent)
+/* Parts of the drawing, and which of them are joined.  `widest`: of the largest disc in each, by root, the squared
+ * radius; BEYOND_FRAME if the part is cut off by the frame. */
+typedef struct
 {
-  for (size_t i = 0; i < bridges->n; i++)
-    for (size_t k = 0; k < bridges->item[i].n && (bridges->item[i].ahead || bridges->item[i].length > length); k++)
+  const CeldBridges *bridges;
+  const CeldPlane   *ink;
+  const CeldBasins  *basins;
+  const uint32_t    *part;
+  uint32_t          *parent;
+  int32_t           *widest;
+} PartsJoin;
+
+/* The part on the paper beside a pixel: right, below, left, above; 0: none. */
+static uint32_t
+part_beside (const PartsJoin *s, CeldBridgePixel p, int side)
+{
+  static const int step_x[4] = { 1, 0, -1, 0 }, step_y[4] = { 0, 1, 0, -1 };
+  int              x = p.x + step_x[side], y = p.y + step_y[side];
+
+  if (x < 0 || y < 0 || x >= s->ink->width || y >= s->ink->height || !celd_is_paper (CELD_AT (s->ink, x, y)))
+    return 0;
+  return s->part[celd_basin_at (s->basins, x, y)];
+}
+
+static void
+join_over (PartsJoin *s, const CeldBridge *bridge)
+{
+  for (size_t k = bridge->first; k < bridge->first + bridge->n; k++)
+    {
+      CeldBridgePixel p = s->bridges->pixel[k];
+      uint32_t        mine = s->part[celd_basin_at (s->basins, p.x, p.y)];
+
+      for (int side = 0; side < 4; side++)
+        {
+          uint32_t other = part_beside (s, p, side), a = celd_root (s->parent, mine), b = celd_root (s->parent, other);
+
+          if (!mine || !other || a == b)
+            continue;
+          s->widest[a] = s->widest[b] = s->widest[a] > s->widest[b] ? s->widest[a] : s->widest[b];
+          celd_join (s->parent, a, b);
+        }
+    }
+}
+
+/* Does the end of a line nearly shut a room?  Then the gap is clearly narrower than the parts on both sides, while an
+ * open mouth is about as wide as what is behind it; and one of them is enclosed by ink, not by the frame. */
+static bool
+shuts (const PartsJoin *s, const CeldBridge *bridge)
+{
+  double  gap = ROOM_WIDER * 0.5 * bridge->length + 1;
+  int32_t narrower = BEYOND_FRAME;
+
+  for (size_t k = bridge->first; k < bridge->first + bridge->n; k++)
+    for (int side = 0; side < 4; side++)
       {
-        CeldBridgePixel p = bridges->pixel[bridges->item[i].first + k];
-        uint32_t        mine = part[celd_basin_at (basins, p.x, p.y)];
+        uint32_t part = part_beside (s, s->bridges->pixel[k], side);
+        int32_t  widest = part ? s->widest[celd_root (s->parent, part)] : BEYOND_FRAME;
 
-        for (int y = p.y > 0 ? p.y - 1 : 0; y <= p.y + 1 && y < ink->height; y++)
-          for (int x = p.x > 0 ? p.x - 1 : 0; x <= p.x + 1 && x < ink->width; x++)
-            if ((x == p.x) != (y == p.y) && celd_is_paper (CELD_AT (ink, x, y)))
-              {
-                uint32_t other = part[celd_basin_at (basins, x, y)];
-
-                if (mine && other)
-                  celd_join (parent, mine, other);
-              }
+        narrower = widest < narrower ? widest : narrower;
       }
+  return bridge->line && narrower < BEYOND_FRAME && narrower > gap * gap;
+}
+
+/* Joins over bridges that are longer than `length` pixels or have one end only: those hold no paint back.  `rooms`: not
+ * over those of a single end that nearly shut a room. */
+static void
+join (PartsJoin *s, double length, bool rooms)
+{
+  for (size_t i = 0; i < s->bridges->n; i++)
+    {
+      const CeldBridge *bridge = &s->bridges->item[i];
+
+      if (bridge->ahead ? !rooms || !shuts (s, bridge) : bridge->length > length)
+        join_over (s, bridge);
+    }
+}
+
+static void
+mark_beyond (PartsJoin *s, int x, int y)
+{
+  if (celd_is_paper (CELD_AT (s->ink, x, y)))
+    s->widest[s->part[celd_basin_at (s->basins, x, y)]] = BEYOND_FRAME;
+}
+
+static void
+measure (PartsJoin *s)
+{
+  int width = s->ink->width, height = s->ink->height;
+
+  for (size_t k = 0; k < s->basins->n; k++)
+    {
+      int32_t *widest = &s->widest[s->part[k]];
+
+      *widest = *widest > s->basins->basin[k].squared ? *widest : s->basins->basin[k].squared;
+    }
+  for (int x = 0; x < width; x++)
+    {
+      mark_beyond (s, x, 0);
+      mark_beyond (s, x, height - 1);
+    }
+  for (int y = 0; y < height; y++)
+    {
+      mark_beyond (s, 0, y);
+      mark_beyond (s, width - 1, y);
+    }
 }
 
 /* Renumbers the parts by their first basins. */
@@ -56,19 +142,24 @@ renumber (uint32_t *parent, uint32_t *number, size_t n, uint32_t *part, size_t *
 }
 
 static CeldStatus
-join_parts (const CeldBridges *bridges, double length, const CeldPlane *ink, const CeldBasins *basins, uint32_t *part,
-            size_t *n_parts)
+join_parts (const CeldBridges *bridges, double length, bool rooms, const CeldPlane *ink, const CeldBasins *basins,
+            uint32_t *part, size_t *n_parts)
 {
-  uint32_t *parent = celd_alloc (*n_parts + 1, sizeof *parent), *number = celd_alloc0 (*n_parts + 1, sizeof *number);
-  bool      enough = parent && number;
+  PartsJoin s = { bridges, ink, basins, part, celd_alloc (*n_parts + 1, sizeof *s.parent),
+                  celd_alloc0 (*n_parts + 1, sizeof *s.widest) };
+  uint32_t *number = celd_alloc0 (*n_parts + 1, sizeof *number);
+  bool      enough = s.parent && s.widest && number;
 
   if (enough)
     {
-      celd_roots (parent, *n_parts + 1);
-      join (bridges, length, ink, basins, part, parent);
-      renumber (parent, number, basins->n, part, n_parts);
+      celd_roots (s.parent, *n_parts + 1);
+      if (rooms)
+        measure (&s);
+      join (&s, length, rooms);
+      renumber (s.parent, number, basins->n, part, n_parts);
     }
-  celd_free (parent);
+  celd_free (s.parent);
+  celd_free (s.widest);
   celd_free (number);
   return enough ? CELD_OK : CELD_NO_MEMORY;
 }
@@ -83,11 +174,12 @@ celd_bridges_join (const CeldBridges *bridges, const CeldPlane *ink, CeldBasins 
   if (bridged)
     memcpy (bridged, basins->component, basins->n * sizeof *bridged);
   if (status == CELD_OK)
-    status = join_parts (bridges, INFINITY, ink, basins, bridged, &n);
+    status = join_parts (bridges, INFINITY, true, ink, basins, bridged, &n);
   if (status == CELD_OK)
-    status = join_parts (bridges, 0, ink, basins, basins->component, &basins->n_components);
+    status = join_parts (bridges, 0, false, ink, basins, basins->component, &basins->n_components);
   if (status == CELD_OK)
-    status = join_parts (bridges, GAP * basins->stroke, ink, basins, basins->enclosure, &basins->n_enclosures);
+    status = join_parts (bridges, GAP * basins->stroke, false, ink, basins, basins->enclosure,
+                         &basins->n_enclosures);
   if (status == CELD_OK)
     *bridged_component = bridged;
   else

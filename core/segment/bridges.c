@@ -26,6 +26,7 @@
 #define DOUBTFUL_LENGTH 12     /* from here on it is a guess */
 #define CERTAIN_COSINE  0.94   /* of the larger angle by which it turns: certain up to 20 degrees */
 #define DOUBTFUL_COSINE 0.5    /* a guess from 60 degrees on */
+#define THINNEST_SIDE   0.4    /* of the ink ahead, in the line's direction: a line this wide may be a room's side (chosen) */
 #define MOST_AHEAD      6      /* stroke widths from a single end to the ink that it points at, at most (chosen) */
 
 typedef struct
@@ -113,12 +114,13 @@ walk (BridgeBuilder *b, const CeldPlace *place, size_t n, double clear, CeldBrid
 
 /* Adds a bridge along the curve unless something stands in its way; *built says whether it did. */
 static CeldStatus
-build (BridgeBuilder *b, const CeldPlace *place, size_t n, bool ahead, bool *built)
+build (BridgeBuilder *b, CeldBridge bridge, const CeldPlace *place, size_t n, bool *built)
 {
-  CeldBridge bridge = { .first = b->bridges->n_pixels, .ahead = ahead };
   bool       open = true;
-  CeldStatus status = walk (b, place, n, fmax (b->stroke, 2), &bridge, &open);
+  CeldStatus status;
 
+  bridge.first = b->bridges->n_pixels;
+  status       = walk (b, place, n, fmax (b->stroke, 2), &bridge, &open);
   *built = status == CELD_OK && open && bridge.n;
   if (*built)
     return celd_append (b->bridges->item, b->bridges->n, b->bridges->item_capacity, bridge);
@@ -136,7 +138,7 @@ build_between (BridgeBuilder *b, const CeldTipPair *pair)
   CeldStatus  status;
 
   b->faintness = FAINTEST_INK * (float) (1 - certainty (&b->tip[pair->a], &b->tip[pair->b], b->stroke));
-  status       = build (b, place, n, false, &built);
+  status       = build (b, (CeldBridge) { .ahead = false }, place, n, &built);
   if (built)
     b->taken[pair->a] = b->taken[pair->b] = true;
   return status;
@@ -165,6 +167,23 @@ find_ink_ahead (const BridgeBuilder *b, const CeldTip *tip, CeldPlace *place)
   return false;
 }
 
+/* Is the line that ends here about as wide as the ink at that place ahead of it?  Thin lines in a part with a broad
+ * outline only adorn it, as veins do a leaf. */
+static bool
+is_side (const BridgeBuilder *b, const CeldTip *tip, CeldPlace place)
+{
+  double t = 0, most = tip->width / THINNEST_SIDE;
+
+  for (; t <= most; t += 0.5)
+    {
+      int x = (int) floor (place.x + t * tip->dx), y = (int) floor (place.y + t * tip->dy);
+
+      if (x < 0 || y < 0 || x >= b->ink->width || y >= b->ink->height || celd_is_paper (CELD_AT (b->ink, x, y)))
+        return true;
+    }
+  return false;
+}
+
 static CeldStatus
 build_ahead (BridgeBuilder *b, const CeldTip *tip)
 {
@@ -172,7 +191,9 @@ build_ahead (BridgeBuilder *b, const CeldTip *tip)
   bool      built;
 
   b->faintness = FAINTEST_INK;
-  return find_ink_ahead (b, tip, &place[1]) ? build (b, place, 2, true, &built) : CELD_OK;
+  if (!find_ink_ahead (b, tip, &place[1]))
+    return CELD_OK;
+  return build (b, (CeldBridge) { .ahead = true, .line = tip->width > 0 && is_side (b, tip, place[1]) }, place, 2, &built);
 }
 
 /* Joins line ends, the cheapest pair first, and then single ends with what lies ahead of them. */

@@ -10,8 +10,8 @@
 /* ------------------------------------------------------------------ line-ends.c */
 
 /* The end of a line: the middle of its tip, the unit direction in which it would go on, and the number of its ink
- * outline. */
-typedef struct { double x, y, dx, dy; uint32_t outline; } CeldTip;
+ * outline.  `width`: of the line; 0 if it is not of even width, as the corner of two lines. */
+typedef struct { double x, y, dx, dy; uint32_t outline; double width; } CeldTip;
 
 /* Finds all line ends, in the order of their first pixels; the caller frees *tip with celd_free.  `stroke`:
  * celd_stroke_width. */
@@ -38,8 +38,9 @@ CeldStatus celd_tip_pairs_next (CeldTipPairs *pairs, const bool *taken, const Ce
  * not paper if it is a mere guess. */
 typedef struct { int32_t x, y; float ink; } CeldBridgePixel;
 
-/* Its pixels, from end to end; its length in pixels; does it go on from a single end to the ink ahead? */
-typedef struct { size_t first, n; double length; bool ahead; } CeldBridge;
+/* Its pixels, from end to end; its length in pixels; does it go on from a single end to the ink ahead, and is that the
+ * end of a line that may be the side of a room? */
+typedef struct { size_t first, n; double length; bool ahead, line; } CeldBridge;
 
 typedef struct
 {
@@ -73,7 +74,7 @@ CeldStatus celd_bridges_make_basins (const CeldPlane *ink, CeldRect *changed, fl
 
 /* Joins components over bridges, and enclosures over bridges that are longer than two stroke widths or have one end
  * only.  `ink` is without bridges.  *bridged_component becomes each basin's component with bridges between two line ends
- * as lines, which the caller frees. */
+ * as lines, and with those that go on from a line's end and nearly shut a room; the caller frees it. */
 CeldStatus celd_bridges_join (const CeldBridges *bridges, const CeldPlane *ink, CeldBasins *basins,
                               uint32_t **bridged_component);
 

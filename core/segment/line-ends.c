@@ -25,6 +25,9 @@
 #define SHARP_TURN   0.6  /* distance of both arms' ends, relative to the arms' lengths: a right angle has 0.71 */
 #define CERTAIN_TIP  0.42 /* the largest such value for a line whose direction cannot be fitted */
 #define LEAST_INKED  0.75 /* of the way from side to side of a line that ends (chosen) */
+#define LINE_ARMS    5    /* arms behind the end a line is as wide as near it (chosen) */
+#define MOST_WIDENING 1.3  /* times, plus a pixel (chosen): lines that meet at 10 degrees are 1.7 times as wide */
+#define BROADEST_LINE 2    /* stroke widths (chosen): what is broader is a shape of its own, as a mouth */
 #define SAME_END     0.75 /* line widths: ends closer than this are the same */
 #define END_CELL     16   /* pixels: side of the cells in which found ends are looked up */
 
@@ -198,11 +201,40 @@ is_inked (const LineEndSearch *s, size_t i, size_t arm)
   return ink >= LEAST_INKED * steps;
 }
 
+/* The width of the line that ends at corner i, one arm behind it if `arms` is 1: from one side to the nearest place of
+ * the other, which is not quite opposite where a line is bent. */
+static double
+width_behind (const LineEndSearch *s, size_t i, size_t arm, size_t arms)
+{
+  CeldCorner a = s->corner[(i + s->n - arms * arm) % s->n];
+  double     least = INFINITY;
+
+  for (size_t k = (arms - 1) * arm; k <= (arms + 1) * arm; k++)
+    {
+      CeldCorner b = s->corner[(i + k) % s->n];
+
+      least = fmin (least, hypot (b.x - a.x, b.y - a.y));
+    }
+  return least;
+}
+
+/* The width of what ends at corner i; 0 if it is not one line of even width, but the corner of two lines or a dark
+ * area. */
+static double
+line_width (const LineEndSearch *s, size_t i, size_t arm)
+{
+  double width = width_behind (s, i, arm, 1);
+  bool   line = s->n > 2 * (LINE_ARMS + 1) * arm && width <= BROADEST_LINE * s->stroke;
+
+  return line && width_behind (s, i, arm, LINE_ARMS) <= MOST_WIDENING * width + 1 ? width : 0;
+}
+
 /* Adds the corner if a line ends there.  A very sharp tip (CERTAIN_TIP) counts even if its line is too short or too
  * curved to fit a direction. */
 static CeldStatus
-try_corner (LineEndSearch *s, CeldCorner corner, CeldPlace middle, double sharp)
+try_corner (LineEndSearch *s, size_t i, size_t arm, CeldPlace middle, double sharp)
 {
+  CeldCorner corner = s->corner[i];
   double     back = hypot (middle.x - corner.x, middle.y - corner.y), width = 2 * sharp * back; /* estimated width of
                                                                                                  * the line */
   CeldCorner inside;
@@ -217,11 +249,13 @@ try_corner (LineEndSearch *s, CeldCorner corner, CeldPlace middle, double sharp)
     return CELD_OK;
   celd_line_end_fit (s->ink, inside, &s->end);
   if (s->end.tip)
-    end = (CeldTip) { s->end.at.x, s->end.at.y, s->end.dx, s->end.dy, s->outline };
+    end = (CeldTip) { s->end.at.x, s->end.at.y, s->end.dx, s->end.dy, s->outline, 0 };
   else
-    end = (CeldTip) { corner.x, corner.y, (corner.x - middle.x) / back, (corner.y - middle.y) / back, s->outline };
+    end = (CeldTip) { corner.x, corner.y, (corner.x - middle.x) / back, (corner.y - middle.y) / back, s->outline,
+                      0 };
   if ((!s->end.tip && sharp > CERTAIN_TIP) || is_known (s, end, width))
     return CELD_OK;
+  end.width = line_width (s, i, arm);
   return add_tip (s, end);
 }
 
@@ -258,7 +292,7 @@ search_outline (LineEndSearch *s, size_t arm)
             }
         }
       if (is_inked (s, best, arm) && is_inked (s, best, arm / 2))
-        status = try_corner (s, s->corner[best], middle, least);
+        status = try_corner (s, best, arm, middle, least);
     }
   return status;
 }

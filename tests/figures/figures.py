@@ -237,6 +237,49 @@ def forgotten():
     return f
 
 
+def stopped_short(gap, x=120, width=4, outline=4):
+    """A box whose left part is painted.  The wall at x stops so many stroke widths short of the upper side."""
+    f = Figure()
+    f.shape(box(20, 30, 220, 170), outline)
+    f.line([(x, 170), (x, 30 + outline / 2 + 4 * gap + width / 2)], width)
+    f.stroke('scribbles', [(40, 60), (80, 140)], A)
+    f.stroke('scribbles', [(10, 15), (230, 15)], B)
+    return f
+
+
+def stopped_near():
+    return stopped_short(1.5)
+
+
+def stopped_farther():
+    return stopped_short(3)
+
+
+def stopped_far():
+    return stopped_short(5.5)
+
+
+def open_bay():
+    """What is behind the wall is as wide as its mouth."""
+    return stopped_short(5, 196)
+
+
+def vein():
+    """The wall is a quarter as wide as the outline, as the veins of a leaf may be."""
+    return stopped_short(3, 120, 2, 8)
+
+
+def notch():
+    """In place of the wall, the corner of two lines."""
+    f = Figure()
+    f.shape(box(20, 30, 220, 170))
+    f.line([(109, 170), (120, 44), (131, 170)])
+    f.stroke('scribbles', [(40, 60), (80, 140)], A)
+    f.stroke('scribbles', [(116, 166), (124, 166)], C)
+    f.stroke('scribbles', [(10, 15), (230, 15)], B)
+    return f
+
+
 def hairline():
     """A ring half a pixel wide, nowhere darker than half of the ink, inside a box with a thick outline."""
     f = Figure()
@@ -267,7 +310,8 @@ def stroke_on_contour():
 
 
 FIGURES = [two_arrows, thick, contours, two_characters, frame, limbs, cycle, broken, pinched_little, pinched_much,
-           severed, close_up, forgotten, hairline, stroke_on_contour]
+           severed, close_up, forgotten, stopped_near, stopped_farther, stopped_far, open_bay, vein, notch, hairline,
+           stroke_on_contour]
 
 
 if __name__ == '__main__':

@@ -165,12 +165,24 @@ def close_up(run):
     yield 'the figure reaches the frame', r.colour(237, 2) == r.colour(120, 197) == figures.A
 
 
+def unreached(r):
+    return [p['place'] for p in r.report['problems'] if p['kind'] == 'region-unreached']
+
+
 def forgotten(run):
-    r = run()
-    places = [p['place'] for p in r.report['problems'] if p['kind'] == 'region-unreached']
+    places = unreached(run())
     yield 'the closed part is named', any(100 < x < 140 and 40 < y < 80 for x, y in places)
     yield 'so is the one behind a gap', any(160 < x < 220 and 40 < y < 100 for x, y in places)
     yield 'and no other', len(places) == 2
+
+
+def stopped_short(run):
+    places = unreached(run())
+    yield 'the room behind the gap is named, and no other', len(places) == 1 and 120 < places[0][0] < 220
+
+
+def no_room(run):
+    yield 'no room is named', not unreached(run())
 
 
 def hairline(run):
@@ -190,7 +202,8 @@ def stroke_on_contour(run):
 
 
 OUTCOMES = [two_arrows, thick, contours, two_characters, frame, limbs, cycle, broken, pinched, pinched,
-            severed, close_up, forgotten, hairline, stroke_on_contour]
+            severed, close_up, forgotten, stopped_short, stopped_short, stopped_short, no_room, no_room, no_room, hairline,
+            stroke_on_contour]
 
 
 def main():

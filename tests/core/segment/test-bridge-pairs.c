@@ -86,7 +86,7 @@ random_tip (double width, double height, uint32_t outlines)
 
   double x = check_random (&state, 1000) * 0.001 * width, y = check_random (&state, 1000) * 0.001 * height;
 
-  return (CeldTip){ x, y, cos (angle), sin (angle), check_random (&state, outlines) };
+  return (CeldTip){ x, y, cos (angle), sin (angle), check_random (&state, outlines), 4 };
 }
 
 /* From pages on which all ends are near to pages of hundreds of strokes. */
@@ -117,8 +117,8 @@ pairs_of_hatching_come_in_the_order_of_an_exhaustive_search (void)
   for (int y = 0; y < 6; y++)
     for (int x = 0; x < 6; x++)
       {
-        tip[n++] = (CeldTip){ 40 * x, 10 * y, -1, 0, (uint32_t)(6 * y + x) };
-        tip[n++] = (CeldTip){ 40 * x + 20, 10 * y, 1, 0, (uint32_t)(6 * y + x) };
+        tip[n++] = (CeldTip){ 40 * x, 10 * y, -1, 0, (uint32_t)(6 * y + x), 4 };
+        tip[n++] = (CeldTip){ 40 * x + 20, 10 * y, 1, 0, (uint32_t)(6 * y + x), 4 };
       }
   compare_with_oracle (tip, n, 2, 1);
   compare_with_oracle (tip, n, 2, 3);
@@ -128,7 +128,7 @@ pairs_of_hatching_come_in_the_order_of_an_exhaustive_search (void)
 static void
 no_gap_is_too_wide (void)
 {
-  CeldTip            tip[2]   = { { 0, 0, 1, 0, 0 }, { CELD_MAX_SIDE, 0, -1, 0, 1 } };
+  CeldTip            tip[2]   = { { 0, 0, 1, 0, 0, 4 }, { CELD_MAX_SIDE, 0, -1, 0, 1, 4 } };
   bool               taken[2] = { false, false };
   CeldTipPairs      *pairs    = celd_tip_pairs_new (tip, 2, 1);
   const CeldTipPair *pair     = NULL;
@@ -144,7 +144,7 @@ many_ends_in_one_place_are_paired (void)
   CeldTip tip[40];
 
   for (uint32_t i = 0; i < 40; i++)
-    tip[i] = (CeldTip){ 7, 7, cos (i), sin (i), i };
+    tip[i] = (CeldTip){ 7, 7, cos (i), sin (i), i, 4 };
   compare_with_oracle (tip, 40, 3, 2);
   compare_with_oracle (tip, 1, 3, 2);
   compare_with_oracle (tip, 0, 3, 2);

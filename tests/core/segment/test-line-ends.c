@@ -168,6 +168,49 @@ an_outlined_limb_is_no_line (void)
 }
 
 /* Pages too small for any line, and lines of one pixel. */
+/* The width of the line that ends near a place; there must be an end within 12 pixels. */
+static double
+width_at (const Scene *s, double x, double y)
+{
+  CeldTip *tip = NULL;
+  size_t   n = find (s, &tip), best = 0;
+  double   width;
+
+  for (size_t i = 1; i < n; i++)
+    if (hypot (tip[i].x - x, tip[i].y - y) < hypot (tip[best].x - x, tip[best].y - y))
+      best = i;
+  CHECK (n && hypot (tip[best].x - x, tip[best].y - y) < 12);
+  width = n ? tip[best].width : -1;
+  celd_free (tip);
+  return width;
+}
+
+/* A bar three times as wide as the lines, and the corner of two that meet at 11 degrees, have none; all ink is moved by
+ * parts of a pixel. */
+static void
+ends_have_the_width_of_their_line (void)
+{
+  for (int k = 0; k < 8; k++)
+    {
+      double u = 0.125 * k, v = 0.375 * k;
+      Scene  s;
+
+      scene_open (SIDE, SIDE, &s);
+      for (int y = 20; y <= 60; y += 20)
+        scene_line (&s, (CeldPlace) { 20 + u, y + v }, (CeldPlace) { 140 + u, y + v }, 6);
+      scene_line (&s, (CeldPlace) { 20 + u, 80 + v }, (CeldPlace) { 140 + u, 80 + v }, 3);
+      scene_line (&s, (CeldPlace) { 40 + u, 103 + v }, (CeldPlace) { 140 + u, 103 + v }, 18);
+      scene_line (&s, (CeldPlace) { 20 + u, 135 + v }, (CeldPlace) { 140 + u, 123 + v }, 6);
+      scene_line (&s, (CeldPlace) { 20 + u, 135 + v }, (CeldPlace) { 140 + u, 147 + v }, 6);
+      NEAR (width_at (&s, 20 + u, 20 + v), 6, 2);
+      NEAR (width_at (&s, 140 + u, 60 + v), 6, 2);
+      NEAR (width_at (&s, 20 + u, 80 + v), 3, 1);
+      NEAR (width_at (&s, 140 + u, 103 + v), 0, 0);
+      NEAR (width_at (&s, 20 + u, 135 + v), 0, 0);
+      scene_close (&s);
+    }
+}
+
 static void
 pages_of_a_few_pixels_have_no_ends (void)
 {
@@ -196,6 +239,7 @@ main (void)
   RUN (both_ends_at_a_gap_are_found);
   RUN (blots_and_areas_have_none);
   RUN (an_outlined_limb_is_no_line);
+  RUN (ends_have_the_width_of_their_line);
   RUN (pages_of_a_few_pixels_have_no_ends);
   return DONE;
 }
