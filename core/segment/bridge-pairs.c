@@ -51,8 +51,17 @@ struct CeldTipPairs
 
 /* ------------------------------------------------------------------ a pair */
 
-/* May two ends be joined?  The cost is their distance, more where the lines have to turn, and less if that closes an
- * outline. */
+/* How differently wide two lines are: 1 or more; a pixel does not count. */
+static double
+width_ratio (const CeldTip *p, const CeldTip *q)
+{
+  double narrow = fmin (p->width, q->width) + 1, wide = fmax (p->width, q->width);
+
+  return p->width > 0 && q->width > 0 ? fmax (1, wide / narrow) : 1;
+}
+
+/* May two ends be joined?  The cost is their distance, more where the lines have to turn or are not equally wide, and
+ * less if that closes an outline. */
 static bool
 may_join (const CeldTipPairs *s, const CeldTip *p, const CeldTip *q, double *cost)
 {
@@ -66,7 +75,7 @@ may_join (const CeldTipPairs *s, const CeldTip *p, const CeldTip *q, double *cos
         : FAR_COSINE;
   if (turn < least || other < least || (turn < BOW_COSINE && other < BOW_COSINE && side * other_side < 0))
     return false;
-  *cost = length * (2 - 0.5 * (turn + other)) * (p->outline == q->outline ? OWN_OUTLINE : 1);
+  *cost = length * (2 - 0.5 * (turn + other)) * width_ratio (p, q) * (p->outline == q->outline ? OWN_OUTLINE : 1);
   return true;
 }
 

@@ -27,6 +27,7 @@
 #define CERTAIN_COSINE  0.94   /* of the larger angle by which it turns: certain up to 20 degrees */
 #define DOUBTFUL_COSINE 0.5    /* a guess from 60 degrees on */
 #define THINNEST_SIDE   0.4    /* of the ink ahead, in the line's direction: a line this wide may be a room's side (chosen) */
+#define BROADEST_SIDE   2      /* stroke widths: nor is a broader one (chosen) */
 #define MOST_AHEAD      6      /* stroke widths from a single end to the ink that it points at, at most (chosen) */
 
 typedef struct
@@ -167,13 +168,15 @@ find_ink_ahead (const BridgeBuilder *b, const CeldTip *tip, CeldPlace *place)
   return false;
 }
 
-/* Is the line that ends here about as wide as the ink at that place ahead of it?  Thin lines in a part with a broad
- * outline only adorn it, as veins do a leaf. */
+/* May the line that ends here be the side of a room?  Thin lines in a part with a broad outline, which is at that place
+ * ahead, only adorn it, as veins do a leaf; what is much broader than lines is a shape of its own, as a mouth. */
 static bool
 is_side (const BridgeBuilder *b, const CeldTip *tip, CeldPlace place)
 {
   double t = 0, most = tip->width / THINNEST_SIDE;
 
+  if (tip->width <= 0 || tip->width > BROADEST_SIDE * b->stroke)
+    return false;
   for (; t <= most; t += 0.5)
     {
       int x = (int) floor (place.x + t * tip->dx), y = (int) floor (place.y + t * tip->dy);
@@ -193,7 +196,7 @@ build_ahead (BridgeBuilder *b, const CeldTip *tip)
   b->faintness = FAINTEST_INK;
   if (!find_ink_ahead (b, tip, &place[1]))
     return CELD_OK;
-  return build (b, (CeldBridge) { .ahead = true, .line = tip->width > 0 && is_side (b, tip, place[1]) }, place, 2, &built);
+  return build (b, (CeldBridge) { .ahead = true, .line = is_side (b, tip, place[1]) }, place, 2, &built);
 }
 
 /* Joins line ends, the cheapest pair first, and then single ends with what lies ahead of them. */

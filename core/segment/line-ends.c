@@ -27,7 +27,6 @@
 #define LEAST_INKED  0.75 /* of the way from side to side of a line that ends (chosen) */
 #define LINE_ARMS    5    /* arms behind the end a line is as wide as near it (chosen) */
 #define MOST_WIDENING 1.3  /* times, plus a pixel (chosen): lines that meet at 10 degrees are 1.7 times as wide */
-#define BROADEST_LINE 2    /* stroke widths (chosen): what is broader is a shape of its own, as a mouth */
 #define SAME_END     0.75 /* line widths: ends closer than this are the same */
 #define END_CELL     16   /* pixels: side of the cells in which found ends are looked up */
 
@@ -218,15 +217,15 @@ width_behind (const LineEndSearch *s, size_t i, size_t arm, size_t arms)
   return least;
 }
 
-/* The width of what ends at corner i; 0 if it is not one line of even width, but the corner of two lines or a dark
- * area. */
+/* The width of what ends at corner i; 0 if it is not one line of even width, but the corner of two. */
 static double
 line_width (const LineEndSearch *s, size_t i, size_t arm)
 {
   double width = width_behind (s, i, arm, 1);
-  bool   line = s->n > 2 * (LINE_ARMS + 1) * arm && width <= BROADEST_LINE * s->stroke;
 
-  return line && width_behind (s, i, arm, LINE_ARMS) <= MOST_WIDENING * width + 1 ? width : 0;
+  if (s->n <= 2 * (LINE_ARMS + 1) * arm || width_behind (s, i, arm, LINE_ARMS) > MOST_WIDENING * width + 1)
+    return 0;
+  return width;
 }
 
 /* Adds the corner if a line ends there.  A very sharp tip (CERTAIN_TIP) counts even if its line is too short or too

@@ -20,12 +20,17 @@ cost_of (const CeldTip *p, const CeldTip *q, int stroke)
   double least = length <= 6 * stroke ? -0.17 : length <= 12 * stroke ? 0.5
                                                                       : 0.94;
   bool   bow   = turn < 0.8 && other < 0.8;
+  double ratio = 1;
 
   if (length < 1 || turn < least || other < least)
     return -1;
   if (bow && (x * p->dy - y * p->dx) * (x * q->dy - y * q->dx) < 0)
     return -1;
-  return length * (2 - 0.5 * (turn + other)) * (p->outline == q->outline ? 0.5 : 1);
+  if (p->width && q->width && p->width > q->width + 1)
+    ratio = p->width / (q->width + 1);
+  else if (p->width && q->width && q->width > p->width + 1)
+    ratio = q->width / (p->width + 1);
+  return length * (2 - 0.5 * (turn + other)) * ratio * (p->outline == q->outline ? 0.5 : 1);
 }
 
 /* The cheapest pair that is free and has not been given out; false: there is none. */
@@ -86,7 +91,8 @@ random_tip (double width, double height, uint32_t outlines)
 
   double x = check_random (&state, 1000) * 0.001 * width, y = check_random (&state, 1000) * 0.001 * height;
 
-  return (CeldTip){ x, y, cos (angle), sin (angle), check_random (&state, outlines), 4 };
+  return (CeldTip){ x, y, cos (angle), sin (angle), check_random (&state, outlines),
+                    4 * check_random (&state, 4) };
 }
 
 /* From pages on which all ends are near to pages of hundreds of strokes. */

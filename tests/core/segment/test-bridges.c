@@ -134,6 +134,31 @@ a_gap_of_the_thickest_line_is_bridged (void)
   scene_close (&s);
 }
 
+/* Beside the gap in a line ends a bar three times as broad, nearer to one end than the other end is. */
+static void
+a_line_goes_on_as_wide_as_it_is (void)
+{
+  for (int shift = 0; shift < 8; shift++)
+    {
+      double      x = 0.375 * shift;
+      CeldBridges bridges;
+      size_t      n = 0;
+      Scene       s;
+
+      scene_open (SIDE, SIDE, &s);
+      scene_line (&s, (CeldPlace) { 20 + x, 100 }, (CeldPlace) { 140 + x, 100 }, 6);
+      scene_line (&s, (CeldPlace) { 172 + x, 100 }, (CeldPlace) { 300 + x, 100 }, 6);
+      scene_line (&s, (CeldPlace) { 210 + x, 208 }, (CeldPlace) { 159.5 + x, 121 }, 18);
+      bridges = find (&s);
+      for (size_t i = 0; i < bridges.n; i++)
+        for (size_t k = 0; k < bridges.item[i].n && !bridges.item[i].ahead; k++, n++)
+          NEAR (bridges.pixel[bridges.item[i].first + k].y + 0.5, 100, 2);
+      CHECK (n > 20);
+      celd_bridges_clear (&bridges);
+      scene_close (&s);
+    }
+}
+
 /* A third of the circle is missing: no narrow place of the paper says where it was.  Basins part all the same, but
  * components and enclosures do not. */
 static void
@@ -336,6 +361,7 @@ main (void)
   RUN (the_more_certain_a_bridge_the_darker_it_is);
   RUN (gaps_of_a_thick_line_are_bridged);
   RUN (a_gap_of_the_thickest_line_is_bridged);
+  RUN (a_line_goes_on_as_wide_as_it_is);
   RUN (basins_meet_at_a_bridge);
   RUN (the_straightest_pair_is_joined);
   RUN (nothing_is_joined_through_ink);
