@@ -23,8 +23,6 @@
 #define ON_PAPER       1.7  /* times as much in a layer without alpha, which may have been stored with loss */
 #define LEAST_PAINT    20   /* pixels of a colour, ... */
 #define LEAST_PALETTE  0.02 /* ... which is at least this share of the solid paint */
-#define LEAST_PART     100  /* pixels of a part of a colour that is not an edge of another stroke */
-#define MOST_BREAK     40   /* pixels between parts that may be one stroke, hidden by others in between */
 #define CLOSING        7    /* pixels: half the width of a stroke below which another one continues */
 
 typedef struct { double red, green, blue; } StrokeColour;
@@ -208,7 +206,7 @@ is_broken (ColourSplit *s, uint32_t part, bool *broken)
     s->seed[i] = s->parts.data[i] && s->parts.data[i] != part && s->part[s->parts.data[i] - 1].area >= LEAST_PAINT;
   status = celd_distance (s->mask.width, s->mask.height, s->seed, NULL, s->squared);
   for (size_t i = 0; i < n && status == CELD_OK; i++)
-    *broken |= s->parts.data[i] == part && s->squared[i] < MOST_BREAK * MOST_BREAK;
+    *broken |= s->parts.data[i] == part && s->squared[i] < CELD_MOST_BREAK * CELD_MOST_BREAK;
   return status;
 }
 
@@ -220,15 +218,17 @@ add_parts (ColourSplit *s, const CeldArrowStroke *stroke, int colour, CeldColour
 
   for (size_t k = 0; k < s->n_parts && status == CELD_OK; k++)
     {
-      size_t n = to->strokes.n, n_first = n + 1;
+      size_t n = to->strokes.n, n_colour = n, n_first = n + 1;
       bool   broken = false;
 
-      if (s->part[k].area < LEAST_PART)
+      if (s->part[k].area < LEAST_PAINT)
         continue;
-      if (s->n_parts > 1)
+      if (s->n_parts > 1 && s->part[k].area >= CELD_LEAST_PART)
         status = is_broken (s, (uint32_t) k + 1, &broken);
       if (status == CELD_OK)
         status = celd_append (to->doubtful, n, to->doubtful_capacity, broken);
+      if (status == CELD_OK)
+        status = celd_append (to->colour, n_colour, to->colour_capacity, colour);
       if (status == CELD_OK)
         status = celd_append (to->strokes.first, n_first, to->first_capacity, 0);
       if (status == CELD_OK)
@@ -299,6 +299,7 @@ celd_colour_strokes_clear (CeldColourStrokes *s)
 {
   celd_crossing_strokes_clear (&s->strokes);
   celd_free (s->doubtful);
+  celd_free (s->colour);
   celd_free (s->seen);
   *s = (CeldColourStrokes) { 0 };
 }

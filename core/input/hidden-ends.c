@@ -2,7 +2,7 @@
  *
  * An arrow that is read by its colour ends where its paint does.  If most of the paint there is hidden, or other paint
  * goes on in its direction, or nearly so, its end may lie elsewhere.  Its place is known all the same if another arrow
- * ends there too.
+ * ends there too, or at a place to which it leads below other paint, or if two hidden ones lead to one place.
  *
  * Cost: two passes over the paint of the arrow.
  *
@@ -22,6 +22,12 @@
 #define RAYS             5   /* in that range, along which paint is looked for */
 #define SAME_PLACE       0.7 /* widths between the ends of two arrows that end at one place, and ... */
 #define SAME_PLACE_LEAST 2   /* ... as many pixels */
+#define SIDE_BY_SIDE     0.87 /* cosine of the angle between arrows that another one may hide at one place */
+#define MEETING_SINE     0.7 /* of the angle between hidden arrows that meet farther on, at least */
+#define LEADING          5   /* widths that an arrow may lead below others, at most, and ... */
+#define LEADING_LEAST    3   /* ... as many pixels */
+#define ASTRAY           0.15 /* of that distance, by which its end may lie aside */
+#define BREAK_COSINE     0.8 /* of the angle by which an arrow that others hide may turn there, at least */
 
 /* The direction in which the paint of an arrow that is seen reaches its end. */
 static CeldPoint
@@ -86,12 +92,34 @@ is_seen (const CeldArrowStroke *stroke, const bool *seen, CeldPoint at, double w
   return 2 * hidden < near;
 }
 
-CeldArrowEnd
-celd_arrow_end (const CeldStrokeMask *component, const CeldArrowStroke *stroke, const bool *seen, CeldPoint at,
-                CeldPoint other)
+/* Is there paint of the same colour in front of an end of stroke k, so close that it may be more of it? */
+static bool
+is_broken (const CeldArrowStroke *stroke, const CeldColourStrokes *colours, size_t k, const CeldArrowEnd *end)
 {
-  CeldArrowEnd end = { at, fmax (1.5, (double)stroke->n / fmax (1, hypot (at.x - other.x, at.y - other.y))), true };
-  CeldPoint    way = direction_at (stroke, seen, at, end.width);
+  const CeldCrossingStrokes *all = &colours->strokes;
+
+  for (size_t j = 0; j < all->n; j++)
+    for (size_t i = all->first[j]; i < all->first[j + 1] && j != k && colours->colour[j] == colours->colour[k]; i++)
+      {
+        CeldPoint p = celd_stroke_point (stroke, all->pixel[i]);
+        double    dx = p.x - end->at.x, dy = p.y - end->at.y, d = hypot (dx, dy);
+
+        if (d <= CELD_MOST_BREAK && dx * end->way.x + dy * end->way.y > BREAK_COSINE * d)
+          return true;
+      }
+  return false;
+}
+
+CeldArrowEnd
+celd_arrow_end (const CeldStrokeMask *component, const CeldArrowStroke *stroke, const CeldColourStrokes *colours,
+                size_t k, CeldPoint at, CeldPoint other)
+{
+  const bool  *seen = &colours->seen[colours->strokes.first[k]];
+  CeldArrowEnd end = { .at = at, .place = at, .visible = true };
+  CeldPoint    way;
+
+  end.width = fmax (1.5, (double) stroke->n / fmax (1, hypot (at.x - other.x, at.y - other.y)));
+  end.way   = way = direction_at (stroke, seen, at, end.width);
 
   end.visible = is_seen (stroke, seen, at, end.width);
 
@@ -107,16 +135,79 @@ celd_arrow_end (const CeldStrokeMask *component, const CeldArrowStroke *stroke, 
         d += 0.5;
       end.visible &= d <= most;
     }
+  end.broken = !end.visible && is_broken (stroke, colours, k, &end);
   return end;
 }
 
-bool
-celd_arrow_end_known (const CeldArrowEnd *ends, size_t n, size_t k)
+/* Is all of the straight line between two points painted? */
+static bool
+is_joined (const CeldStrokeMask *c, CeldPoint a, CeldPoint b)
 {
-  bool known = ends[k].visible;
+  double length = hypot (b.x - a.x, b.y - a.y);
 
-  for (size_t i = 0; i < n && !known; i++)
-    known = i / 2 != k / 2 && hypot (ends[i].at.x - ends[k].at.x, ends[i].at.y - ends[k].at.y) <=
-                                SAME_PLACE * fmin (ends[i].width, ends[k].width) + SAME_PLACE_LEAST;
-  return known;
+  for (double d = 0; d < length; d += 0.5)
+    if (!is_painted (c, a.x - c->left + d * (b.x - a.x) / length, a.y - c->top + d * (b.y - a.y) / length))
+      return false;
+  return true;
+}
+
+/* Does an arrow whose end is hidden lead below other paint to a place? */
+static bool
+leads_to (const CeldStrokeMask *component, const CeldArrowEnd *end, CeldPoint p)
+{
+  double dx = p.x - end->at.x, dy = p.y - end->at.y, ahead = dx * end->way.x + dy * end->way.y;
+  double aside = fabs (dx * end->way.y - dy * end->way.x);
+
+  return ahead > -end->width && ahead <= LEADING * end->width + LEADING_LEAST &&
+         aside <= SAME_PLACE * end->width + ASTRAY * ahead && is_joined (component, end->at, p);
+}
+
+/* Where the arrows of two ends end, if they end at one place: false if they do not.  Without `lead` that must be where
+ * their paint ends. */
+static bool
+find_common_place (const CeldStrokeMask *component, const CeldArrowEnd *end, const CeldArrowEnd *other, bool lead,
+                   CeldPoint *place)
+{
+  double dx = other->at.x - end->at.x, dy = other->at.y - end->at.y, along;
+  double sine = end->way.x * other->way.y - end->way.y * other->way.x;
+  bool   same = hypot (dx, dy) <= SAME_PLACE * fmin (end->width, other->width) + SAME_PLACE_LEAST;
+
+  *place = lead ? other->at : end->at;
+  if (same)
+    return !lead || other->visible ||
+           end->way.x * other->way.x + end->way.y * other->way.y < SIDE_BY_SIDE;
+  if (!lead)
+    return false;
+  if (other->visible)
+    return leads_to (component, end, *place);
+  if (fabs (sine) < MEETING_SINE)
+    return false;
+  along  = (dx * other->way.y - dy * other->way.x) / sine;
+  *place = (CeldPoint) { end->at.x + along * end->way.x, end->at.y + along * end->way.y };
+  return leads_to (component, end, *place) && leads_to (component, other, *place);
+}
+
+void
+celd_arrow_ends_find (const CeldStrokeMask *component, bool lead, CeldArrowEnd *ends, size_t n)
+{
+  for (size_t k = 0; k < n; k++)
+    {
+      double nearest = INFINITY;
+
+      ends[k].known = ends[k].visible;
+      for (size_t i = 0; i < n && !ends[k].visible && !(lead && ends[k].broken); i++)
+        {
+          CeldPoint place;
+          double    d;
+
+          if (i / 2 == k / 2 || !find_common_place (component, &ends[k], &ends[i], lead, &place))
+            continue;
+          d = hypot (place.x - ends[k].at.x, place.y - ends[k].at.y);
+          if (d >= nearest)
+            continue;
+          nearest       = d;
+          ends[k].known = true;
+          ends[k].place = place;
+        }
+    }
 }

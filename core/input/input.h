@@ -17,6 +17,10 @@
  *   arrow-profile.c      which end of a stroke is more opaque or wider
  *   crossings.c          where strokes cross
  *   crossing-strokes.c   the strokes of a connected component in which some cross
+ *   arrow-strokes.c      the arrow of paint of one colour, or those of strokes that cross in it
+ *   arrow-colours.c      the paint of each colour of a component
+ *   hidden-ends.c        where arrows end whose ends are hidden below others
+ *   coloured-arrows.c    the arrows of a component of several colours
  *   arrows.c             all arrows of a layer
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
@@ -328,13 +332,39 @@ typedef struct { uint32_t *pixel; size_t *first, n; size_t pixel_capacity; } Cel
 CeldStatus celd_crossing_strokes_find (const CeldArrowStroke *component, CeldCrossingStrokes *strokes);
 void       celd_crossing_strokes_clear (CeldCrossingStrokes *strokes);
 
-/* arrow-colours.c: connected paint of each colour of a component; doubtful: it may be a part of a stroke that others
- * hide; seen: of each pixel, that it has that colour, and not one that hides it. */
+/* Makes `stroke` the one with index k. */
+void celd_stroke_select (const CeldCrossingStrokes *strokes, size_t k, CeldArrowStroke *stroke);
+
+/* ------------------------------------------------------------------ arrow-strokes.c */
+
+#define CELD_LEAST_STROKE 6 /* pixels; a smaller component is a speck and ignored; chosen */
+
+/* A problem at some pixel of a stroke that is no clear arrow. */
+CeldProblem celd_arrow_unclear (const CeldArrowStroke *stroke);
+
+/* Appends the arrow of connected paint, or those of the strokes that cross in it; *clear becomes false if neither is
+ * clear.  *strokes: those that cross, to be cleared by the caller. */
+CeldStatus celd_arrow_strokes_read (CeldArrowStroke *stroke, const CeldArrowLayer *layer, CeldArrowStyle style,
+                                    CeldRelations *relations, CeldCrossingStrokes *strokes, bool *clear);
+
+/* Appends a problem for each stroke of connected paint that was not clear. */
+CeldStatus celd_arrow_strokes_report (const CeldArrowStroke *paint, const CeldCrossingStrokes *strokes,
+                                      CeldProblems *problems);
+
+/* ------------------------------------------------------------------ arrow-colours.c */
+
+#define CELD_LEAST_PART 100 /* pixels of a part of a colour that is no edge of another stroke; chosen */
+#define CELD_MOST_BREAK 40  /* pixels between parts that may be one stroke, hidden by others in between; chosen */
+
+/* Connected paint of each colour of a component, also what is too small to be a stroke; colour: that of each, from 0;
+ * doubtful: it may be a part of a stroke that others hide; seen: of each pixel, that it has that colour, and not one
+ * that hides it. */
 typedef struct
 {
   CeldCrossingStrokes strokes;
+  int                *colour;
   bool               *doubtful, *seen;
-  size_t              first_capacity, doubtful_capacity, seen_capacity;
+  size_t              first_capacity, colour_capacity, doubtful_capacity, seen_capacity;
 } CeldColourStrokes;
 
 /* strokes.n = 0 if the component has one colour.  To be cleared by the caller. */
@@ -344,15 +374,29 @@ void       celd_colour_strokes_clear (CeldColourStrokes *strokes);
 
 /* ------------------------------------------------------------------ hidden-ends.c */
 
-/* An end of an arrow, the mean width of its paint, and whether it visibly ends there: else other paint of the component
- * goes on in its direction and may hide its end. */
-typedef struct { CeldPoint at; double width; bool visible; } CeldArrowEnd;
+/* An end of an arrow: where its paint ends, the direction in which it does, and its mean width.  visible: it ends there,
+ * else other paint of the component goes on in its direction and may hide its end; broken: so does paint of its own
+ * colour farther on, which may be more of it; known: it ends at `place`. */
+typedef struct
+{
+  CeldPoint at, way, place;
+  double    width;
+  bool      visible, broken, known;
+} CeldArrowEnd;
 
-/* The end at `at` of an arrow from or to `other`, whose paint is `stroke`; seen: which of its pixels nothing hides. */
-CeldArrowEnd celd_arrow_end (const CeldStrokeMask *component, const CeldArrowStroke *stroke, const bool *seen,
-                             CeldPoint at, CeldPoint other);
+/* The end at `at` of an arrow from or to `other`, whose paint is stroke k of a component. */
+CeldArrowEnd celd_arrow_end (const CeldStrokeMask *component, const CeldArrowStroke *stroke,
+                             const CeldColourStrokes *colours, size_t k, CeldPoint at, CeldPoint other);
 
-/* Is the place of end k of n known?  Arrow k has the ends 2 k and 2 k + 1. */
-bool celd_arrow_end_known (const CeldArrowEnd *ends, size_t n, size_t k);
+/* Finds out which of n ends are known, and their places.  Arrow k has the ends 2 k and 2 k + 1.  Only with `lead` an
+ * arrow may go on below others to a place where they end. */
+void celd_arrow_ends_find (const CeldStrokeMask *component, bool lead, CeldArrowEnd *ends, size_t n);
+
+/* ------------------------------------------------------------------ coloured-arrows.c */
+
+/* Appends the arrows of a component, which has the strokes of several colours, or problems. */
+CeldStatus celd_coloured_arrows_read (const CeldColourStrokes *colours, const CeldArrowStroke *component,
+                                      const CeldArrowLayer *layer, CeldArrowStyle style, CeldRelations *relations,
+                                      CeldProblems *problems);
 
 #endif

@@ -1,0 +1,183 @@
+/* The arrow of connected paint of one colour, or those of the strokes that cross in it.
+ *
+ * The form of a stroke decides which end is nearer; its colour also says whether registration may tear there (blue).
+ * Strokes that cross are each followed straight on (crossing-strokes.c).
+ *
+ * Cost: a few sweeps over the pixels of each stroke.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "input/input.h"
+
+#include <math.h>
+
+/* All chosen. */
+#define LEAST_HUE    195  /* degrees: the range of blue */
+#define LARGEST_HUE  265
+#define LEAST_CHROMA 0.25 /* of blue: its largest channel less its smallest, as a fraction of the largest */
+
+/* ------------------------------------------------------------------ one stroke */
+
+/* Is there an arrowhead nearer to the tail than to the tip? */
+static bool
+head_disagrees (CeldArrowStroke *stroke, const CeldArrowEnds *ends)
+{
+  CeldArrowEnds found;
+
+  return celd_arrowhead (stroke, false, &found) && hypot (found.tip.x - ends->tail.x, found.tip.y - ends->tail.y) <
+                                                  hypot (found.tip.x - ends->tip.x, found.tip.y - ends->tip.y);
+}
+
+static bool
+read_stroke (CeldArrowStroke *stroke, const CeldArrowLayer *layer, CeldArrowStyle style, CeldArrowEnds *ends)
+{
+  CeldArrowEnds found;
+
+  if (style == CELD_ARROW_FADE || style == CELD_ARROW_TAPER)
+    return celd_arrow_profile (stroke, layer, style, ends) && !head_disagrees (stroke, ends);
+  if (!celd_arrowhead (stroke, style == CELD_ARROW_DOT, &found))
+    return false;
+  *ends = style == CELD_ARROW_DOT ? (CeldArrowEnds) { found.tip, found.tail } : found;
+  return true;
+}
+
+/* Is the mean colour blue?  Such an arrow marks a crack. */
+static bool
+is_blue (const CeldArrowStroke *stroke, const CeldArrowLayer *layer)
+{
+  double red = 0, green = 0, blue = 0, most, least, hue;
+
+  for (size_t i = 0; i < stroke->n; i++)
+    {
+      int            x = celd_stroke_x (stroke, stroke->pixel[i]), y = celd_stroke_y (stroke, stroke->pixel[i]);
+      const uint8_t *c = CELD_RGBA (layer->paint, x, y);
+      int            a = celd_arrow_opacity (layer, x, y);
+
+      red   += c[0] * a;
+      green += c[1] * a;
+      blue  += c[2] * a;
+    }
+  most  = fmax (blue, fmax (red, green));
+  least = fmin (blue, fmin (red, green));
+  if (blue < most || most - least < LEAST_CHROMA * most)
+    return false;
+  hue = 240 + 60 * (red - green) / (most - least);
+  return hue >= LEAST_HUE && hue <= LARGEST_HUE;
+}
+
+static CeldStatus
+add_arrow (const CeldArrowEnds *ends, bool crack, CeldRelations *relations)
+{
+  return celd_relation_add (relations, (CeldRelation) {
+    .nearer = { .x = ends->tail.x, .y = ends->tail.y }, .farther = { .x = ends->tip.x, .y = ends->tip.y },
+    .crack = crack, .weight = 1, .gap = 1, .source = CELD_SOURCE_ARROW,
+  });
+}
+
+CeldProblem
+celd_arrow_unclear (const CeldArrowStroke *stroke)
+{
+  uint32_t middle = stroke->pixel[stroke->n / 2];
+
+  return (CeldProblem) {
+    .kind = CELD_PROBLEM_ARROW_UNCLEAR, .relation = CELD_NO_INDEX,
+    .x = celd_stroke_x (stroke, middle), .y = celd_stroke_y (stroke, middle),
+  };
+}
+
+/* Appends the relation of a stroke; *clear becomes false if it is no clear arrow.  Resets the distances of its pixels,
+ * because crossing strokes share some. */
+static CeldStatus
+read_one (CeldArrowStroke *stroke, const CeldArrowLayer *layer, CeldArrowStyle style, CeldRelations *relations,
+          bool *clear)
+{
+  CeldArrowEnds ends = { { 0, 0 }, { 0, 0 } };
+  CeldStatus    status = CELD_OK;
+
+  if (read_stroke (stroke, layer, style, &ends))
+    status = add_arrow (&ends, is_blue (stroke, layer), relations);
+  else
+    *clear = false;
+  for (size_t i = 0; i < stroke->n; i++)
+    stroke->distance[stroke->pixel[i]] = INFINITY;
+  return status;
+}
+
+/* ------------------------------------------------------------------ strokes that cross */
+
+void
+celd_stroke_select (const CeldCrossingStrokes *strokes, size_t k, CeldArrowStroke *stroke)
+{
+  stroke->pixel = strokes->pixel + strokes->first[k];
+  stroke->n     = strokes->first[k + 1] - strokes->first[k];
+}
+
+/* Has a stroke two colours, one at each end?  Then it is two strokes that meet. */
+static bool
+has_two_colours (CeldArrowStroke *stroke, const CeldArrowLayer *layer)
+{
+  uint32_t start = celd_stroke_follow (stroke, stroke->pixel, 1);
+
+  celd_stroke_follow (stroke, &start, 1);
+  return celd_stroke_changes_colour (stroke, layer);
+}
+
+/* Appends the relations of all strokes.  If one of them is no clear arrow of one colour, none is appended and *clear
+ * becomes false, because what looks like a crossing may be part of another figure. */
+static CeldStatus
+read_crossing (CeldArrowStroke *stroke, const CeldCrossingStrokes *strokes, const CeldArrowLayer *layer,
+               CeldArrowStyle style, CeldRelations *relations, bool *clear)
+{
+  size_t     before = relations->n;
+  CeldStatus status = CELD_OK;
+
+  for (size_t k = 0; k < strokes->n && status == CELD_OK && *clear; k++)
+    {
+      bool one_colour;
+
+      celd_stroke_select (strokes, k, stroke);
+      one_colour = !has_two_colours (stroke, layer);
+      status     = read_one (stroke, layer, style, relations, clear);
+      *clear &= one_colour;
+    }
+  if (!*clear)
+    relations->n = before;
+  return status;
+}
+
+CeldStatus
+celd_arrow_strokes_read (CeldArrowStroke *stroke, const CeldArrowLayer *layer, CeldArrowStyle style,
+                         CeldRelations *relations, CeldCrossingStrokes *strokes, bool *clear)
+{
+  CeldArrowStroke whole = *stroke;
+  CeldStatus      status = celd_crossing_strokes_find (stroke, strokes);
+
+  *clear = strokes->n;
+  if (status == CELD_OK && strokes->n)
+    status = read_crossing (stroke, strokes, layer, style, relations, clear);
+  if (status == CELD_OK && !*clear)
+    {
+      *stroke = whole;
+      *clear  = true;
+      status  = read_one (stroke, layer, style, relations, clear);
+    }
+  *stroke = whole;
+  return status;
+}
+
+CeldStatus
+celd_arrow_strokes_report (const CeldArrowStroke *paint, const CeldCrossingStrokes *strokes, CeldProblems *problems)
+{
+  CeldArrowStroke stroke = *paint;
+  CeldStatus      status = CELD_OK;
+
+  if (!strokes->n)
+    return celd_problem_add (problems, celd_arrow_unclear (paint));
+  for (size_t k = 0; k < strokes->n && status == CELD_OK; k++)
+    {
+      celd_stroke_select (strokes, k, &stroke);
+      if (stroke.n >= CELD_LEAST_STROKE)
+        status = celd_problem_add (problems, celd_arrow_unclear (&stroke));
+    }
+  return status;
+}

@@ -1,0 +1,106 @@
+/* Where arrows end whose ends are hidden below others: in a square of paint, known only where others tell.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "check.h"
+#include "input/input.h"
+
+#include <math.h>
+
+#define SIZE 120
+
+/* All of it is painted, but for the columns from `gap` on, three of them. */
+static CeldStrokeMask
+square (int gap)
+{
+  CeldStrokeMask mask = { .width = SIZE, .height = SIZE, .painted = malloc (SIZE * SIZE) };
+
+  for (int i = 0; i < SIZE * SIZE; i++)
+    mask.painted[i] = i % SIZE < gap || i % SIZE >= gap + 3;
+  return mask;
+}
+
+/* An end at a place that is reached in a direction, in radians. */
+static CeldArrowEnd
+end_at (double x, double y, double angle, bool visible)
+{
+  return (CeldArrowEnd) { .at = { x, y }, .place = { x, y }, .way = { cos (angle), sin (angle) }, .width = 6,
+                          .visible = visible };
+}
+
+/* The first end of the first arrow, beside that of a second one; the other ends are far away and seen. */
+static CeldArrowEnd
+beside (CeldArrowEnd one, CeldArrowEnd two, int gap, bool lead)
+{
+  CeldStrokeMask mask = square (gap);
+  CeldArrowEnd   ends[4] = { one, end_at (5, 5, 0, true), two, end_at (5, 110, 0, true) };
+
+  celd_arrow_ends_find (&mask, lead, ends, 4);
+  CHECK (ends[1].known && ends[3].known);
+  free (mask.painted);
+  return ends[0];
+}
+
+static bool
+is_at (CeldArrowEnd end, double x, double y)
+{
+  return end.known && hypot (end.place.x - x, end.place.y - y) < 1e-6;
+}
+
+static void
+leads_below_others (void)
+{
+  CeldArrowEnd hidden = end_at (50, 60, 0, false), seen = end_at (70, 61, 2, true);
+
+  CHECK (is_at (beside (hidden, seen, SIZE, true), 70, 61));
+  CHECK (!beside (hidden, seen, SIZE, false).known);
+  CHECK (!beside (hidden, seen, 60, true).known);                         /* no paint on the way */
+  CHECK (!beside (hidden, end_at (70, 75, 2, true), SIZE, true).known);   /* aside */
+  CHECK (!beside (hidden, end_at (40, 61, 2, true), SIZE, true).known);   /* behind */
+  CHECK (!beside (hidden, end_at (100, 61, 2, true), SIZE, true).known);  /* too far */
+}
+
+static void
+more_of_it_may_follow (void)
+{
+  CeldArrowEnd hidden = end_at (50, 60, 0, false);
+
+  hidden.broken = true;
+  CHECK (!beside (hidden, end_at (70, 61, 2, true), SIZE, true).known);
+  CHECK (!beside (hidden, end_at (51, 61, 2, true), SIZE, true).known);
+}
+
+/* A third arrow that hides two side by side does so at one place, which is the end of neither. */
+static void
+both_are_hidden (void)
+{
+  CeldArrowEnd hidden = end_at (50, 60, 0, false);
+
+  CHECK (!beside (hidden, end_at (50, 64, 0.3, false), SIZE, true).known);
+  CHECK (beside (hidden, end_at (50, 64, -1.2, false), SIZE, true).known);
+  CHECK (beside (hidden, end_at (50, 60, 3, false), SIZE, true).known); /* head to tail */
+  CHECK (is_at (beside (hidden, end_at (65, 75, -CELD_PI / 2, false), SIZE, true), 65, 60));
+  CHECK (!beside (hidden, end_at (65, 75, CELD_PI / 2, false), SIZE, true).known);  /* leads away */
+  CHECK (!beside (hidden, end_at (60, 66, -0.5, false), SIZE, true).known);         /* too sharp an angle to tell */
+}
+
+static void
+own_ends_do_not_count (void)
+{
+  CeldStrokeMask mask = square (SIZE);
+  CeldArrowEnd   ends[2] = { end_at (50, 60, 0, false), end_at (60, 60, CELD_PI, true) };
+
+  celd_arrow_ends_find (&mask, true, ends, 2);
+  CHECK (!ends[0].known && ends[1].known);
+  free (mask.painted);
+}
+
+int
+main (void)
+{
+  RUN (leads_below_others);
+  RUN (more_of_it_may_follow);
+  RUN (both_are_hidden);
+  RUN (own_ends_do_not_count);
+  return DONE;
+}
