@@ -22,7 +22,7 @@
 #define RAYS             5   /* in that range, along which paint is looked for */
 #define SAME_PLACE       0.7 /* widths between the ends of two arrows that end at one place, and ... */
 #define SAME_PLACE_LEAST 2   /* ... as many pixels */
-#define SIDE_BY_SIDE     0.87 /* cosine of the angle between arrows that another one may hide at one place */
+#define SIDE_BY_SIDE     0.7 /* cosine of the angle between arrows that another one may hide at one place */
 #define MEETING_SINE     0.7 /* of the angle between hidden arrows that meet farther on, at least */
 #define LEADING          5   /* widths that an arrow may lead below others, at most, and ... */
 #define LEADING_LEAST    3   /* ... as many pixels */
@@ -174,8 +174,7 @@ find_common_place (const CeldStrokeMask *component, const CeldArrowEnd *end, con
 
   *place = lead ? other->at : end->at;
   if (same)
-    return !lead || other->visible ||
-           end->way.x * other->way.x + end->way.y * other->way.y < SIDE_BY_SIDE;
+    return other->visible || end->way.x * other->way.x + end->way.y * other->way.y < SIDE_BY_SIDE;
   if (!lead)
     return false;
   if (other->visible)

@@ -132,7 +132,7 @@ at_any_angles (void)
       forget (&answer);
       free (paint.data);
     }
-  CHECK (right >= 0.79 * all);
+  CHECK (right >= 0.78 * all);
 }
 
 /* The line of a head lies on the tail of an arrow that leaves the same place. */

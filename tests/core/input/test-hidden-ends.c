@@ -77,6 +77,7 @@ both_are_hidden (void)
   CeldArrowEnd hidden = end_at (50, 60, 0, false);
 
   CHECK (!beside (hidden, end_at (50, 64, 0.3, false), SIZE, true).known);
+  CHECK (!beside (hidden, end_at (50, 64, 0.6, false), SIZE, false).known);
   CHECK (beside (hidden, end_at (50, 64, -1.2, false), SIZE, true).known);
   CHECK (beside (hidden, end_at (50, 60, 3, false), SIZE, true).known); /* head to tail */
   CHECK (is_at (beside (hidden, end_at (65, 75, -CELD_PI / 2, false), SIZE, true), 65, 60));
