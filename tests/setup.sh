@@ -81,12 +81,13 @@ build_with_clang ()
   build_tree "$@"
 )
 
-# install_for_user FOLDER HOME: builds in the folder without tests, and installs into a home.  Compiling keeps the caller's
-# home, and with it the compiler's cache.
+# install_for_user FOLDER HOME: builds in the folder without tests, and installs into a home.  A kept build that is
+# configured again needs it too, or plug-ins would go to the system.  Compiling keeps the caller's home, and with it the
+# compiler's cache.
 install_for_user ()
 {
   [ -e "$1/build.ninja" ] || HOME=$2 meson setup "$1" --prefix "$2/.local" -Dtests=false || return 1
-  ninja -C "$1" && HOME=$2 meson install -C "$1" --no-rebuild
+  HOME=$2 ninja -C "$1" build.ninja && ninja -C "$1" && HOME=$2 meson install -C "$1" --no-rebuild
 }
 
 # use_build FOLDER: `gegl` and `celdepth` of this build come first
