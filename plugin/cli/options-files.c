@@ -53,7 +53,8 @@ static const FileOption files[] = {
     "strokes over ink, each of which gives the line below it to the region of its colour" },
   { "hidden", CLI_POPUP | CLI_LAYERS | FROM_THE_SIDE | CLI_RELIEF | CLI_DEFORM, 0, INPUT, MEMBER (hidden), "PICTURE",
     "what is hidden: strokes in the colour of a region add to it behind nearer ones, black strokes take away" },
-  { "arrows", WITH_PARTS | CLI_ORDER | CLI_INBETWEEN, 0, INPUT, MEMBER (arrows), "PICTURE", "arrows from nearer to farther parts" },
+  { "arrows", WITH_PARTS | CLI_ORDER | CLI_INBETWEEN, 0, INPUT, MEMBER (arrows), "PICTURE",
+    "arrows from nearer to farther parts" },
   { "relations", WITH_PARTS | CLI_ORDER | CLI_PROPAGATE | CLI_INBETWEEN, 0, TEXT, MEMBER (relations), "TEXT",
     "relations such as '120,80 > 300,90; #ff0000 = #00ff00'" },
   { "relations-file", WITH_PARTS | CLI_ORDER | CLI_PROPAGATE | CLI_INBETWEEN, 0, INPUT, MEMBER (relations_file), "FILE",
@@ -277,8 +278,9 @@ cli_files_stream (const CliCommand *command, CliOptions *options)
   bool many = command->step & (CLI_PROPAGATE | CLI_COMPOSE) || options->output_dir, good = true;
 
   if (options->input && !strcmp (options->input, "-"))
-    good = options->watch ? cli_error ("--watch needs a file that is saved, not \"-\".") : many ? cli_error ("%s cannot be \"-\": it names other files.", command->input)
-                : cli_stream_input (&options->streams, command->input, &options->input);
+    good = options->watch ? cli_error ("--watch needs a file that is saved, not \"-\".")
+         : many           ? cli_error ("%s cannot be \"-\": it names other files.", command->input)
+                          : cli_stream_input (&options->streams, command->input, &options->input);
   if (good && options->target && !many && !strcmp (options->target, "-"))
     good = cli_stream_input (&options->streams, command->second, &options->target);
   for (size_t i = 0; good && i < G_N_ELEMENTS (files); i++)

@@ -91,6 +91,23 @@ off (const uint8_t *a, const uint8_t *b)
   return sqrt ((a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]) + (a[2] - b[2]) * (a[2] - b[2]));
 }
 
+/* Of the pixels in the middle of strokes, how many have a label of about the stroke's colour. */
+static double
+share_right (void)
+{
+  size_t right = 0, all = 0;
+
+  for (int p = 0; p < W * H; p++)
+    if (painted[p / W][p % W])
+      {
+        uint32_t seed = seed_of[p / W][p % W];
+
+        all++;
+        right += seed && off (palette.item[seed - 1].colour, colour_of[painted[p / W][p % W] - 1]) < 32;
+      }
+  return (double) right / (double) all;
+}
+
 /* As many labels as colours, each near its own; nearly all of each stroke's middle is its label.  Broader strokes keep
  * more of their chroma. */
 static void
@@ -101,21 +118,11 @@ smeared_strokes_keep_their_colours (void)
   for (int width = 3; width < 6; width++)
     for (int i = 0; i < (width < 5 ? 3 : 2); i++)
       {
-        size_t right = 0, all = 0;
-
         draw (width);
         store (share[i], 10);
         read_paint ();
-      NEAR (palette.n, STROKES, 0);
-        for (int p = 0; p < W * H; p++)
-          if (painted[p / W][p % W])
-            {
-              uint32_t seed = seed_of[p / W][p % W];
-
-              all++;
-              right += seed && off (palette.item[seed - 1].colour, colour_of[painted[p / W][p % W] - 1]) < 32;
-            }
-        CHECK (100 * right > 98 * all);
+        NEAR (palette.n, STROKES, 0);
+        CHECK (share_right () > 0.98);
       }
 }
 
@@ -148,21 +155,11 @@ crossings_make_no_labels (void)
 {
   for (int width = 3; width < 6; width += 2)
     {
-      size_t right = 0, all = 0;
-
       draw_crossing (width);
       store (0.7, 10);
       read_paint ();
       NEAR (palette.n, STROKES, 0);
-      for (int p = 0; p < W * H; p++)
-        if (painted[p / W][p % W])
-          {
-            uint32_t seed = seed_of[p / W][p % W];
-
-            all++;
-            right += seed && off (palette.item[seed - 1].colour, colour_of[painted[p / W][p % W] - 1]) < 32;
-          }
-      CHECK (100 * right > 97 * all);
+      CHECK (share_right () > 0.97);
     }
 }
 
