@@ -68,6 +68,15 @@ def all_layers(out):
     return files
 
 
+def counts(name, files, wanted, out):
+    """Whether the command makes something else without a layer."""
+    options = [word for other in files if other not in ('drawing', name) for word in ('--' + other, files[other])]
+    pictures = {'levels': 'levels', 'lit': 'shaded', 'right': 'right'}
+    outputs = [word for picture, option in pictures.items() for word in ('--' + option, f'{out}/{picture}.npy')]
+    subprocess.run([os.environ['CELDEPTH'], 'popup', files['drawing'], '--quiet', *options, *outputs], check=True)
+    return any(np.abs(np.load(f'{out}/{picture}.npy') - wanted[picture]).max() > ERROR for picture in pictures)
+
+
 def same_bytes(found, wanted):
     return found == wanted
 
@@ -115,8 +124,7 @@ def main():
                 else all_layers(out)
             wanted = command(files, out)
             for name in () if layers else files.keys() - {'drawing', 'scribbles'}:
-                without = command({other: path for other, path in files.items() if other != name}, out)
-                good = any(not np.array_equal(wanted[picture], without[picture]) for picture in wanted)
+                good = counts(name, files, wanted, out)
                 passed, failed = passed + good, failed + (not good)
                 print(f'{"ok  " if good else "FAIL"} the layer with {name} counts')
             found = pipeline(files, out, wanted['depth'].shape[:2])
