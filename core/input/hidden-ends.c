@@ -186,6 +186,16 @@ find_common_place (const CeldStrokeMask *component, const CeldArrowEnd *end, con
   return leads_to (component, end, *place) && leads_to (component, other, *place);
 }
 
+/* May end i tell where end k is, which is hidden?  What fades or tapers is strongest at its nearer end: it does not lead
+ * below others there, and one that goes straight on from it may hide more of it. */
+static bool
+may_tell (const CeldArrowEnd *ends, size_t k, size_t i, bool lead)
+{
+  bool straight_on = ends[k].way.x * ends[i].way.x + ends[k].way.y * ends[i].way.y < -SIDE_BY_SIDE;
+
+  return i / 2 != k / 2 && !(lead && k % 2 == 0 && straight_on);
+}
+
 void
 celd_arrow_ends_find (const CeldStrokeMask *component, bool lead, CeldArrowEnd *ends, size_t n)
 {
@@ -199,7 +209,8 @@ celd_arrow_ends_find (const CeldStrokeMask *component, bool lead, CeldArrowEnd *
           CeldPoint place;
           double    d;
 
-          if (i / 2 == k / 2 || !find_common_place (component, &ends[k], &ends[i], lead, &place))
+          if (!may_tell (ends, k, i, lead) ||
+              !find_common_place (component, &ends[k], &ends[i], lead && k % 2, &place))
             continue;
           d = hypot (place.x - ends[k].at.x, place.y - ends[k].at.y);
           if (d >= nearest)

@@ -28,17 +28,25 @@ end_at (double x, double y, double angle, bool visible)
                           .visible = visible };
 }
 
-/* The first end of the first arrow, beside that of a second one; the other ends are far away and seen. */
+/* An end of an arrow, the farther one or the nearer one, beside the nearer one of another arrow; the other ends are far
+ * away and seen. */
+static CeldArrowEnd
+put_beside (CeldArrowEnd one, bool farther, CeldArrowEnd two, int gap, bool lead)
+{
+  CeldStrokeMask mask = square (gap);
+  CeldArrowEnd   ends[4] = { end_at (5, 5, 0, true), end_at (5, 5, 0, true), two, end_at (5, 110, 0, true) };
+
+  ends[farther] = one;
+  celd_arrow_ends_find (&mask, lead, ends, 4);
+  CHECK (ends[!farther].known && ends[3].known);
+  free (mask.painted);
+  return ends[farther];
+}
+
 static CeldArrowEnd
 beside (CeldArrowEnd one, CeldArrowEnd two, int gap, bool lead)
 {
-  CeldStrokeMask mask = square (gap);
-  CeldArrowEnd   ends[4] = { one, end_at (5, 5, 0, true), two, end_at (5, 110, 0, true) };
-
-  celd_arrow_ends_find (&mask, lead, ends, 4);
-  CHECK (ends[1].known && ends[3].known);
-  free (mask.painted);
-  return ends[0];
+  return put_beside (one, true, two, gap, lead);
 }
 
 static bool
@@ -85,14 +93,26 @@ both_are_hidden (void)
   CHECK (!beside (hidden, end_at (60, 66, -0.5, false), SIZE, true).known);         /* too sharp an angle to tell */
 }
 
+/* Where an arrow that fades or tapers begins, it is strong: others that hide more of it go on as it does. */
+static void
+nearer_ends_do_not_lead (void)
+{
+  CeldArrowEnd hidden = end_at (50, 60, 0, false);
+
+  CHECK (!put_beside (hidden, false, end_at (70, 61, 2, true), SIZE, true).known);
+  CHECK (!put_beside (hidden, false, end_at (50, 60, 3, true), SIZE, true).known);
+  CHECK (put_beside (hidden, false, end_at (50, 60, 3, true), SIZE, false).known);
+  CHECK (put_beside (hidden, false, end_at (50, 60, 2, true), SIZE, true).known);
+}
+
 static void
 own_ends_do_not_count (void)
 {
   CeldStrokeMask mask = square (SIZE);
-  CeldArrowEnd   ends[2] = { end_at (50, 60, 0, false), end_at (60, 60, CELD_PI, true) };
+  CeldArrowEnd   ends[2] = { end_at (60, 60, CELD_PI, true), end_at (50, 60, 0, false) };
 
   celd_arrow_ends_find (&mask, true, ends, 2);
-  CHECK (!ends[0].known && ends[1].known);
+  CHECK (ends[0].known && !ends[1].known);
   free (mask.painted);
 }
 
@@ -102,6 +122,7 @@ main (void)
   RUN (leads_below_others);
   RUN (more_of_it_may_follow);
   RUN (both_are_hidden);
+  RUN (nearer_ends_do_not_lead);
   RUN (own_ends_do_not_count);
   return DONE;
 }
