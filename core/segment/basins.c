@@ -20,8 +20,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#define WIDER 1.25 /* times as wide as the passage, plus a pixel: clearly wider (chosen) */
-#define PACK  64   /* bytes converted at a time (chosen) */
+#define PACK 64 /* bytes converted at a time (chosen) */
 
 void
 celd_basins_count_areas (CeldBasins *basins)
@@ -87,7 +86,7 @@ separates (Unions *unions, const CeldBasinBoundary *boundary)
   int32_t a = unions->widest[celd_root (unions->parent, boundary->a)];
   int32_t b = unions->widest[celd_root (unions->parent, boundary->b)];
 
-  return !boundary->frame && sqrt (a < b ? a : b) > WIDER * sqrt (boundary->saddle) + 1;
+  return !boundary->frame && celd_is_clearly_wider (sqrt (a < b ? a : b), sqrt (boundary->saddle));
 }
 
 /* Numbers the unions from 1 by their first basins; unless `all`, solid ones get 0.  Returns how many there are. */

@@ -103,6 +103,13 @@ celd_basin_run_end (const CeldBasins *basins, size_t run, int y)
   return run + 1 < basins->row[y + 1] ? basins->run[run + 1].x : basins->width;
 }
 
+/* Is a space clearly wider than the passage to it, by a quarter and two pixels (chosen)?  Half widths in pixels. */
+static inline bool
+celd_is_clearly_wider (double space, double passage)
+{
+  return space > 1.25 * passage + 1;
+}
+
 /* The basin of a pixel. */
 static inline uint32_t
 celd_basin_at (const CeldBasins *basins, int x, int y)

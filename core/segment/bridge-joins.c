@@ -14,8 +14,7 @@
 #include <math.h>
 #include <string.h>
 
-#define GAP        2.0  /* stroke widths: over shorter bridges enclosures are not joined */
-#define ROOM_WIDER 1.25 /* times as wide as the gap, plus a pixel: clearly wider (chosen, as in basins.c) */
+#define GAP          2.0       /* stroke widths: over shorter bridges enclosures are not joined */
 #define BEYOND_FRAME INT32_MAX /* wider than the page */
 
 /* Parts of the drawing, and which of them are joined.  `widest`: of the largest disc in each, by root, the squared
@@ -67,7 +66,6 @@ join_over (PartsJoin *s, const CeldBridge *bridge)
 static bool
 shuts (const PartsJoin *s, const CeldBridge *bridge)
 {
-  double  gap = ROOM_WIDER * 0.5 * bridge->length + 1;
   int32_t narrower = BEYOND_FRAME;
 
   for (size_t k = bridge->first; k < bridge->first + bridge->n; k++)
@@ -78,7 +76,7 @@ shuts (const PartsJoin *s, const CeldBridge *bridge)
 
         narrower = widest < narrower ? widest : narrower;
       }
-  return bridge->line && narrower < BEYOND_FRAME && narrower > gap * gap;
+  return bridge->line && narrower < BEYOND_FRAME && celd_is_clearly_wider (sqrt (narrower), bridge->length / 2);
 }
 
 /* Joins over bridges that are longer than `length` pixels or have one end only: those hold no paint back.  `rooms`: not
