@@ -24,20 +24,23 @@ read_paint (const CeldPipeline *p, const CeldPipelineInput *input, CeldLayerRole
   return CELD_OK;
 }
 
+/* In a drawing such values are paper. */
 static gboolean
-check_numbers (const CeldPipelineLayer *layer, GError **error)
+check_numbers (const CeldPipelineInput *input, guint layers, GError **error)
 {
-  return celd_buffer_has_numbers (layer->buffer) ||
-         celd_pipeline_fail (error, _ ("The layer has values that are infinite or no number. Paint over them, or choose "
-                                       "another layer."));
+  for (int role = CELD_LAYER_SCRIBBLES; role < CELD_N_LAYERS; role++)
+    if (layers & 1u << role && input->layer[role].buffer && !celd_buffer_has_numbers (input->layer[role].buffer))
+      return celd_pipeline_fail (error, _ ("The layer with '%s' has values that are infinite or no number. Paint over "
+                                           "them, or choose another layer."),
+                                 _ (celd_layer_role_name ((CeldLayerRole) role)));
+  return TRUE;
 }
 
 static gboolean
 check_scribbles (const CeldPipeline *p, const CeldPipelineInput *input, GError **error)
 {
   CeldPaint drawing = { 0 }, scribbles = { 0 };
-  gboolean  good = check_numbers (&input->layer[CELD_LAYER_SCRIBBLES], error) &&
-                   celd_pipeline_try (read_paint (p, input, CELD_LAYER_SCRIBBLES, &scribbles), error);
+  gboolean  good = celd_pipeline_try (read_paint (p, input, CELD_LAYER_SCRIBBLES, &scribbles), error);
 
   if (good && !celd_are_scribbles (&scribbles))
     good = celd_pipeline_fail (error, _ ("The layer with the scribbles looks like a photograph: scribbles are "
@@ -84,6 +87,8 @@ celd_pipeline_check_layers (const CeldPipeline *p, const CeldPipelineInput *inpu
   gboolean scribbles = layers & 1u << CELD_LAYER_SCRIBBLES && input->layer[CELD_LAYER_SCRIBBLES].buffer;
   gboolean drawing = layers & 1u << CELD_LAYER_DRAWING && p->settings.ink == CELD_INK_AUTO;
 
+  if (!check_numbers (input, layers, error))
+    return FALSE;
   if (p->settings.flats)
     return TRUE;
   return (!scribbles || check_scribbles (p, input, error)) && (!drawing || check_drawing (p, input, error));
@@ -94,5 +99,7 @@ celd_pipeline_check_grey (const CeldPipelineLayer *layer, GError **error)
 {
   if (celd_buffer_has_hue (layer->buffer))
     return celd_pipeline_fail (error, _ ("The layer is in colour: depth is grey. Choose a layer with depth or levels."));
-  return check_numbers (layer, error);
+  return celd_buffer_has_numbers (layer->buffer) ||
+         celd_pipeline_fail (error, _ ("The layer has values that are infinite or no number. Paint over them, or choose "
+                                       "another layer."));
 }

@@ -329,6 +329,30 @@ only_grey_layers_are_depth (void)
   CHECK (celd_pipeline_check_grey (&drawn, &error) && !error);
 }
 
+/* In any layer but the drawing, where it is paper. */
+static void
+only_numbers_are_paint (void)
+{
+  static const char *const names[CELD_N_LAYERS] = { NULL, "'Scribbles'", "'Arrows'", "'Contours'", "'Corrections'",
+                                                    "'Hidden'" };
+  static float values[4 * PIXELS];
+  GeglBuffer  *odd;
+
+  values[4 * (PIXELS / 2)] = INFINITY;
+  values[4 * (PIXELS / 2) + 3] = 1;
+  odd = page_buffer ("RGBA float", "RGBA float", values);
+  for (int role = CELD_LAYER_SCRIBBLES; role < CELD_N_LAYERS; role++)
+    {
+      CeldPipelineInput input = page_input ();
+
+      input.layer[role].buffer = odd;
+      CHECK (refused (&input, names[role]));
+      input.settings.flats = true;
+      CHECK (refused (&input, "infinite or no number"));
+    }
+  g_object_unref (odd);
+}
+
 /* A layer that has a value which is no number, but for one that alpha hides. */
 static void
 only_numbers_are_depth (void)
@@ -386,6 +410,7 @@ main (void)
   RUN (input_without_sense_is_refused);
   RUN (other_layers_than_meant_are_refused);
   RUN (only_grey_layers_are_depth);
+  RUN (only_numbers_are_paint);
   RUN (only_numbers_are_depth);
   RUN (problems_are_told);
   drop_page ();
