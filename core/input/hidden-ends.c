@@ -118,11 +118,9 @@ celd_arrow_end (const CeldStrokeMask *component, const CeldArrowStroke *stroke, 
   CeldArrowEnd end = { .at = at, .place = at, .visible = true };
   CeldPoint    way;
 
-  end.width = fmax (1.5, (double) stroke->n / fmax (1, hypot (at.x - other.x, at.y - other.y)));
-  end.way   = way = direction_at (stroke, seen, at, end.width);
-
+  end.width   = fmax (1.5, (double) stroke->n / fmax (1, hypot (at.x - other.x, at.y - other.y)));
+  end.way     = way = direction_at (stroke, seen, at, end.width);
   end.visible = is_seen (stroke, seen, at, end.width);
-
   for (int ray = 0; ray < RAYS; ray++)
     {
       double    width = end.width, a = ASIDE * (2. * ray / (RAYS - 1) - 1), d = 0, start, most;
