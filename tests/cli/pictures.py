@@ -117,22 +117,13 @@ def name_in_psd(name):
 
 
 def write_exr(path, values):
-    """A float EXR without compression, of height x width x R, G, B, A in linear light."""
-    height, width, _ = values.shape
-    box = struct.pack('<4i', 0, 0, width - 1, height - 1)
-    channels = b''.join(name + struct.pack('<x4i', 2, 0, 1, 1) for name in (b'A', b'B', b'G', b'R')) + b'\0'
-    header = struct.pack('<2i', 20000630, 2)
-    for name, kind, data in (('channels', 'chlist', channels), ('compression', 'compression', b'\0'),
-                             ('dataWindow', 'box2i', box), ('displayWindow', 'box2i', box), ('lineOrder', 'lineOrder', b'\0'),
-                             ('pixelAspectRatio', 'float', struct.pack('<f', 1)), ('screenWindowCenter', 'v2f', bytes(8)),
-                             ('screenWindowWidth', 'float', struct.pack('<f', 1))):
-        header += f'{name}\0{kind}\0'.encode() + struct.pack('<i', len(data)) + data
-    header += b'\0'
-    rows = [struct.pack('<2i', y, 16 * width) + np.ascontiguousarray(values[y, :, ::-1].T, '<f4').tobytes()
-            for y in range(height)]
-    first = len(header) + 8 * height
-    with open(path, 'wb') as file:
-        file.write(header + struct.pack(f'<{height}Q', *(first + y * len(rows[0]) for y in range(height))) + b''.join(rows))
+    """A float EXR of height x width x R, G, B, A in linear light."""
+    with tempfile.TemporaryDirectory() as folder:
+        planes = [os.path.join(folder, name + '.tif') for name in 'RGBA']
+        for k, plane in enumerate(planes):
+            Image.fromarray(np.float32(values[..., k])).save(plane)
+        subprocess.run(['oiiotool', planes[0], *(word for plane in planes[1:] for word in (plane, '--chappend')),
+                        '--chnames', 'R,G,B,A', '-d', 'float', '-o', path], check=True)
 
 
 def write_psd(path, size, layers):
