@@ -1,14 +1,8 @@
-/* The relief that turns to and fro: the scene of stereo views, with the heights of the relief as its depth.
- *
- * A point at height z is seen at  x cos a - z sin a  when the relief has turned by the angle a, which is what the views
- * of a scene on a turntable are if the disparity for all of its heights is  2 z sin a / width.
+/* The relief that turns to and fro: the scene of stereo views on the turntable of core.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "pipeline-parts.h"
-
-#include <float.h>
-#include <math.h>
 
 #include "buffers.h"
 
@@ -16,8 +10,6 @@
 #define BEGIN_LAYERS 0.5
 #define BEGIN_RELIEF 0.7
 #define BEGIN_SCENE  0.9
-
-#define MOST_DISPARITY 0.2 /* that the setting takes; what is higher is seen as if it were as high as this */
 
 void
 celd_pipeline_drop_relief (CeldPipeline *p)
@@ -27,27 +19,6 @@ celd_pipeline_drop_relief (CeldPipeline *p)
   g_clear_pointer (&p->relief_depth.data, g_free);
   p->relief        = NULL;
   p->relief_layers = NULL;
-}
-
-/* Keeps heights as depth in [0,1]. */
-static CeldStatus
-keep_heights (CeldPipeline *p, const CeldRelief *relief)
-{
-  gsize n = (gsize) p->width * (gsize) p->height;
-  float least = FLT_MAX, most = -FLT_MAX;
-
-  p->relief_depth = celd_pipeline_new_plane (p);
-  if (!p->relief_depth.data)
-    return CELD_NO_MEMORY;
-  for (gsize i = 0; i < n; i++)
-    {
-      least = MIN (least, relief->z[i]);
-      most  = MAX (most, relief->z[i]);
-    }
-  for (gsize i = 0; i < n; i++)
-    p->relief_depth.data[i] = most > least ? (relief->z[i] - least) / (most - least) : 0;
-  p->relief_height = (double) (most - least);
-  return CELD_OK;
 }
 
 static CeldStatus
@@ -65,8 +36,10 @@ raise_parts (CeldPipeline *p, CeldPipelineReport *r)
   CeldRelief relief = { 0 };
   CeldStatus status = celd_session_relief (p->session, &host, &relief);
 
+  p->relief_depth = celd_pipeline_new_plane (p);
   if (status == CELD_OK)
-    status = keep_heights (p, &relief);
+    status = p->relief_depth.data ? celd_turntable_depth (&relief, &p->relief_depth, &p->relief_height)
+                                  : CELD_NO_MEMORY;
   celd_relief_clear (&relief);
   return status;
 }
@@ -108,10 +81,8 @@ draw_view (const CeldPipeline *p, CeldCamera camera, CeldPipelineReport *r, Celd
 {
   CeldHost     host = { celd_pipeline_report, celd_gegl_each, r };
   CeldSettings settings = p->settings;
-  double       side = sin (CELD_TURNTABLE_ANGLE * G_PI / 180);
 
-  settings.disparity   = (float) MIN (2 * side * p->relief_height / p->width, MOST_DISPARITY);
-  settings.convergence = 0.5f; /* the axis goes through the middle of all heights */
+  celd_turntable_settings (p->relief_height, p->width, &settings);
   return celd_scene_view (p->relief, camera, &settings, &host, view);
 }
 
@@ -133,13 +104,12 @@ put_scaled (CeldColours *view, GeglBuffer *buffer)
   g_object_unref (from);
 }
 
-/* The frames are the half of a round from three quarters of it on. */
 gboolean
 celd_pipeline_write_turned (CeldPipeline *p, int frame, int frames, CeldPipelineProgress progress, gpointer data,
                             GeglBuffer *buffer, GError **error)
 {
   CeldPipelineReport r = { progress, data, N_ ("Turning the relief"), 0, 1 };
-  CeldCamera         camera = celd_camera_on_path (CELD_PATH_TURNTABLE, 2 * frame + 3 * (frames - 1), 4 * (frames - 1));
+  CeldCamera         camera = celd_turntable_sweep (frame, frames);
   CeldColours        view = celd_pipeline_new_colours (p);
   CeldStatus         status = !p->relief ? CELD_BAD_VALUE : !view.data ? CELD_NO_MEMORY
                                          : draw_view (p, camera, &r, &view);

@@ -337,6 +337,18 @@ CELD_API CeldCamera celd_camera_on_path (CeldPath path, int frame, int frames);
 CELD_API CeldStatus celd_scene_view (const CeldScene *scene, CeldCamera camera, const CeldSettings *settings,
                                      const CeldHost *host, CeldColours *view);
 
+/* A relief on the turntable is a scene whose depth is its heights.  celd_turntable_depth makes these depth in [0,1],
+ * with all 0 if the relief is level; `depth` has the size of the relief, or else CELD_BAD_SIZE.  `range` gets the pixels
+ * from the farthest height to the nearest one.  Heights are finite, as those of celd_relief are. */
+CELD_API CeldStatus celd_turntable_depth    (const CeldRelief *relief, CeldPlane *depth, double *range);
+/* Sets disparity and convergence such that celd_scene_view of that scene shows what has turned about a vertical axis
+ * through the middle of its heights; `width` is the scene's.  A disparity that the setting does not take becomes the
+ * largest one that it does. */
+CELD_API void       celd_turntable_settings (double range, int width, CeldSettings *settings);
+/* The camera for `frame` of `frames` from one side of the turntable to the other, x from -1 to 1.  A single frame is
+ * seen from the front. */
+CELD_API CeldCamera celd_turntable_sweep    (int frame, int frames);
+
 /* Limits of comfort: the disparity in front of and behind the screen, as fractions of the width; whether the left or
  * right side of the frame cuts off something in front of the screen, which the eyes cannot fuse; and whether the eyes
  * would have to diverge on a screen of settings->screen_width. */

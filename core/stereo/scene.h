@@ -5,6 +5,7 @@
  *   layer-depth.c       depth of layers where they are occluded
  *   scene-from-depth.c  scenes of a picture with a depth map
  *   scene-view.c        views
+ *   turntable.c         scenes of a relief that turns
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
