@@ -56,6 +56,20 @@ blend_step (const CeldHost *host, Results *r)
   return celd_blend_propagated (side, host, &labels, &certainty);
 }
 
+/* The labels, rated as if they had come back a row higher. */
+static CeldStatus
+returned_step (const CeldHost *host, Results *r)
+{
+  CeldLabels before = { W, H - 1, W, label_pixels.labels + W }, back = { W, H - 1, W, label_pixels.labels };
+  double     sure[9];
+  CeldStatus status = celd_rate_returned (&before, &before, &back, label_palette.n, sure);
+
+  (void) host;
+  for (size_t l = 1; status == CELD_OK && l <= label_palette.n; l++)
+    r->pixels->plane[l] = (float) sure[l];
+  return status;
+}
+
 /* The silhouette of all, found without labels. */
 static CeldStatus
 lattice_step (const CeldHost *host, Results *r)
@@ -295,6 +309,7 @@ const Step motion_steps[] = {
   { "register", register_step, NULL, true },
   { "propagate", propagate_step, NULL, true },
   { "blend of two keys", blend_step, NULL, true },
+  { "labels that came back", returned_step, NULL, false },
   { "lattice", lattice_step, NULL, true },
   { "lattice of levels", levels_lattice_step, NULL, true },
   { "compose", compose_step, NULL, true },

@@ -470,6 +470,13 @@ CELD_API void       celd_composition_map (const CeldComposition *composition, si
 CELD_API CeldStatus celd_propagate (const CeldPlane *ink, const CeldLabels *source, const uint32_t *level,
                                     uint32_t background, const CeldPlane *next, const CeldHost *host, CeldLabels *labels,
                                     CeldPlane *certainty);
+/* How sure each label is that was carried from the frame `before`, of all of whose pixels it has labels, to the frame
+ * `after`; `back` has those of `after` as celd_propagate carries them back to `before`, where 0 does not count.  sure[1]
+ * to sure[n] get the share of pixels that came back, or the ratio of both areas if that is less: from 0, nothing
+ * agrees, to 1; also 1 for a label that neither frame has.  sure[0] is left alone.  CELD_BAD_VALUE for labels beyond
+ * n. */
+CELD_API CeldStatus celd_rate_returned (const CeldLabels *before, const CeldLabels *after, const CeldLabels *back,
+                                        size_t n, double *sure);
 /* Makes one picture of labels that were propagated to a frame from two keys, one on either side.  Where they differ a
  * connected area takes the label with the higher confidence, certainty times nearness; the nearer key's if both have
  * the same, the first one's if both are as near.  `certainty` gets that of the label, the higher one where both agree;

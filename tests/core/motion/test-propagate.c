@@ -212,6 +212,50 @@ each_area_takes_the_more_certain_side (void)
   check_blend ("222211114444", "999909909999", "333311115555", "999909909999", 0.2, "333311115555", near);
 }
 
+/* Labels of a frame, of the next one, and what came back, as digits; `percent` is that of labels 1, 2, ... */
+static CeldStatus
+check_returned (const char *before, const char *after, const char *back, size_t n, const int *percent)
+{
+  enum { LENGTH = 8, MOST = 5 };
+  const char *text[3] = { before, after, back };
+  uint32_t    label[3][LENGTH];
+  CeldLabels  labels[3];
+  double      sure[MOST + 1] = { -1 };
+  CeldStatus  status;
+
+  for (int k = 0; k < 3; k++)
+    {
+      labels[k] = (CeldLabels) { LENGTH / 2, 2, LENGTH / 2, label[k] };
+      for (int i = 0; i < LENGTH; i++)
+        label[k][i] = (uint32_t) (text[k][i] - '0');
+    }
+  status = celd_rate_returned (&labels[0], &labels[1], &labels[2], n, sure);
+  for (size_t l = 1; status == CELD_OK && l <= n; l++)
+    NEAR (sure[l], percent[l - 1] / 100., 1e-9);
+  CHECK (sure[0] == -1);
+  labels[2].height = 1;
+  CHECK (celd_rate_returned (&labels[0], &labels[1], &labels[2], n, sure) == CELD_BAD_SIZE);
+  return status;
+}
+
+static void
+labels_that_do_not_come_back_are_unsure (void)
+{
+  static const int all[] = { 100, 100, 100 }, lost[] = { 50, 0, 100 }, shrunk[] = { 60, 25 }, moved[] = { 60, 60 };
+
+  /* All came back; ink does not count, and neither frame has a third label. */
+  CHECK (check_returned ("11112222", "11112222", "11012022", 3, all) == CELD_OK);
+  /* The second one is gone, and the first one, twice as large, came back in its place, too. */
+  CHECK (check_returned ("11112222", "11111111", "11111111", 3, lost) == CELD_OK);
+  /* What came back lies right, but areas have changed: 3 to 5, and 4 to 1. */
+  CHECK (check_returned ("11122220", "11111200", "11122220", 2, shrunk) == CELD_OK);
+  /* A quarter of each came back as the other: 3 of 5 pixels agree. */
+  CHECK (check_returned ("11112222", "11112222", "11121222", 2, moved) == CELD_OK);
+  CHECK (check_returned ("11112222", "11112222", "11112223", 2, all) == CELD_BAD_VALUE);
+  CHECK (check_returned ("11112222", "11112232", "11112222", 2, all) == CELD_BAD_VALUE);
+  CHECK (check_returned ("31112222", "11112222", "11112222", 2, all) == CELD_BAD_VALUE);
+}
+
 static void
 blends_of_other_sizes_are_refused (void)
 {
@@ -290,6 +334,7 @@ main (void)
   RUN (strangers_are_uncertain);
   RUN (a_part_that_one_key_knows_is_taken_from_it);
   RUN (each_area_takes_the_more_certain_side);
+  RUN (labels_that_do_not_come_back_are_unsure);
   RUN (blends_of_other_sizes_are_refused);
   RUN (order_of_work_does_not_matter);
   RUN (bad_input_is_refused);
