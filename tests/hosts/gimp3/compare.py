@@ -70,7 +70,7 @@ def compare_layers(out, drawing):
 
 def checks_of_plugin(out):
     """What the tests of the plug-in found, without and with a screen."""
-    for name in ('plugin.txt', 'plugin-screen.txt', 'live.txt'):
+    for name in ('plugin.txt', 'plugin-screen.txt', 'live.txt', 'live-group.txt'):
         with open(os.path.join(out, name)) as checks:
             for line in checks:
                 print(line.rstrip())

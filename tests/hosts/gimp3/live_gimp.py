@@ -1,4 +1,4 @@
-"""GIMP 3 with the example frog on a screen of its own, the window of Live, and strokes with the mouse.
+"""GIMP 3 with the example frog on a screen of its own, its menu, the window of Live, and strokes with the mouse.
 
 $CELDEPTH_EXAMPLES: where the drawings are; $CELDEPTH_OUT gets the folder live.
 
@@ -17,7 +17,7 @@ EXAMPLE = os.path.join(os.environ['CELDEPTH_EXAMPLES'], 'frog')
 OUT = os.path.join(os.environ['CELDEPTH_OUT'], 'live')
 SCREEN = (3400, 1300)
 MAIN = (1350, 1150)         # the size of GIMP's window, which lies in the upper left corner
-ENTRY = 3                   # of Live in the menu Cartoon Depth, which is the third from the right
+ENTRIES = {'Live group': 2, 'Live...': 3} # places in the menu Cartoon Depth, which is the third from the right
 PATIENCE = 60               # seconds
 
 
@@ -114,12 +114,16 @@ class Gimp:
 
     # -------------------------------------------------------------- the window
 
-    def open_live(self, x, y, width, height):
+    def choose_entry(self, name):
+        """Chooses an entry of the menu Cartoon Depth."""
         xdotool('windowactivate', '--sync', self.main, 'mousemove', MAIN[0] - 50, MAIN[1] - 10, 'key', 'F10')
         time.sleep(1)
         xdotool('key', 'Left', 'Left', 'Left')
         time.sleep(1)
-        xdotool('key', *['Down'] * ENTRY, 'Return')
+        xdotool('key', *['Down'] * ENTRIES[name], 'Return')
+
+    def open_live(self, x, y, width, height):
+        self.choose_entry('Live...')
         self.live = self.window('^Live')
         self.move_live(x, y, width, height)
         return self.live
