@@ -3,10 +3,11 @@
  * Pixels are written straight into a layer, which makes no step of undo, so that Ctrl+Z takes back the artist's own
  * strokes; and only where they differ from what is there, since GIMP has to draw these again.
  *
- * What is there is read in a copy, for the reason that live-follow.c gives.  Whole tiles are written, since GEGL would
- * first read a tile that is written in part; a layer that grows meanwhile may get them in a wrong place, until the next
- * picture comes.  One that shrinks in the fraction of a millisecond that writing takes still ends the plug-in: GIMP has
- * no other way of writing without a step of undo.
+ * What is there is read in a copy, for the reason that live-follow.c gives.  Whole tiles are written, also where they
+ * go beyond the layer, since GEGL would first read a tile that is written in part; a layer that grows meanwhile may get
+ * them in a wrong place, until the next picture comes.  They are written by rows, so that a layer may shrink before the
+ * rows that it loses are.  GIMP ends a plug-in that writes a tile which is not there any more: a layer that shrinks in
+ * the few milliseconds that these rows take still ends it, and GIMP has no other way of writing without a step of undo.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -103,40 +104,57 @@ read_rectangle (GeglBuffer *buffer, const GeglRectangle *rect, const Babl *forma
   return pixels;
 }
 
-/* The whole tiles that have a pixel of the rectangle, as far as they lie in the layer. */
+/* The whole tiles of libgimp that have a pixel of the rectangle, also where they go beyond the layer. */
 static GeglRectangle
-whole_tiles (GeglBuffer *buffer, const GeglRectangle *rect)
+whole_tiles (const GeglRectangle *rect)
 {
-  const GeglRectangle *extent = gegl_buffer_get_extent (buffer);
-  GeglRectangle        tiles;
-  int                  width, height;
+  GeglRectangle tiles;
 
-  g_object_get (buffer, "tile-width", &width, "tile-height", &height, NULL);
-  gegl_rectangle_align (&tiles, rect, GEGL_RECTANGLE (0, 0, width, height), GEGL_RECTANGLE_ALIGNMENT_SUPERSET);
-  gegl_rectangle_intersect (&tiles, &tiles, extent);
+  gegl_rectangle_align (&tiles, rect,
+                        GEGL_RECTANGLE (0, 0, (int) gimp_tile_width (), (int) gimp_tile_height ()),
+                        GEGL_RECTANGLE_ALIGNMENT_SUPERSET);
   return tiles;
 }
 
-/* Writes the pixels of a rectangle of the layer, if it still has the size of what they were made from. */
+/* Writes whole tiles of the layer, if it still has the size of what they were made from; whether it has.  The size is
+ * asked for when the pixels are ready. */
+static gboolean
+send_row (GimpDrawable *drawable, GeglBuffer *pixels, const GeglRectangle *row)
+{
+  const Babl   *format = gegl_buffer_get_format (pixels);
+  guint8       *new = read_rectangle (pixels, row, format);
+  GeglBuffer   *there = new ? gimp_drawable_get_buffer (drawable) : NULL;
+  GeglRectangle extent;
+  gboolean      good = there && gegl_rectangle_equal (gegl_buffer_get_extent (there), gegl_buffer_get_extent (pixels));
+
+  if (good)
+    {
+      gegl_rectangle_bounding_box (&extent, gegl_buffer_get_extent (there), row);
+      gegl_buffer_set_extent (there, &extent);
+      gegl_buffer_set (there, row, 0, format, new, GEGL_AUTO_ROWSTRIDE);
+      gegl_buffer_flush (there); /* which sends them */
+    }
+  g_clear_object (&there);
+  g_free (new);
+  return good;
+}
+
+/* Writes the pixels of a rectangle of the layer, by rows of tiles, and has GIMP draw them.  If the layer is resized,
+ * GIMP draws all of it. */
 static void
 send (GimpDrawable *drawable, GeglBuffer *pixels, const GeglRectangle *changed)
 {
-  GeglBuffer   *there = gimp_drawable_get_buffer (drawable);
-  const Babl   *format = gegl_buffer_get_format (pixels);
-  GeglRectangle tiles;
-  guint8       *new;
+  GeglRectangle tiles = whole_tiles (changed), row = tiles;
+  int           bottom = tiles.y + tiles.height, side = (int) gimp_tile_height ();
 
-  if (there && gegl_rectangle_equal (gegl_buffer_get_extent (there), gegl_buffer_get_extent (pixels)))
+  while (row.y < bottom)
     {
-      tiles = whole_tiles (there, changed);
-      new   = read_rectangle (pixels, &tiles, format);
-      if (new)
-        gegl_buffer_set (there, &tiles, 0, format, new, GEGL_AUTO_ROWSTRIDE);
-      gegl_buffer_flush (there); /* which sends them */
-      gimp_drawable_update (drawable, changed->x, changed->y, changed->width, changed->height);
-      g_free (new);
+      row.height = MIN (side, bottom - row.y);
+      if (!send_row (drawable, pixels, &row))
+        return;
+      row.y += row.height;
     }
-  g_clear_object (&there);
+  gimp_drawable_update (drawable, changed->x, changed->y, changed->width, changed->height);
 }
 
 /* `pixels` are those of the layer, of which the picture replaces the part that lies on the image, which begins at (x,y)
