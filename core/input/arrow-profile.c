@@ -22,6 +22,9 @@
 #define MOST_RISE        0.25  /* of a later piece above an earlier one, as a fraction of the range of values, ... */
 #define LAST_RISE        0.12  /* ... and of the last two pieces above the weakest one, ... */
 #define NOISE            0.05  /* ... each with this fraction of the largest value added */
+#define FINE_PIECES      48    /* at most, as long as the stroke is wide, ... */
+#define BUMP             2     /* ... of which so many to either side may be of a crossing, ... */
+#define FINE_RISE        0.4   /* ... and the others may rise by this fraction of the range */
 #define CORNER_RISE      0.3   /* fraction of the allowed rise that is too much at a corner */
 #define CORNER           0.8   /* largest cosine of the turn at a corner */
 #define SHARP_CORNER     0.6   /* and at one that is not drawn in a single stroke */
@@ -197,6 +200,39 @@ falls (const CeldArrowStroke *stroke, const double *value, int n, bool back, dou
   return rise <= allowed;
 }
 
+/* The least, or largest, of each value and those up to BUMP before and behind it. */
+static void
+filter (const double *value, int n, double sign, double *filtered)
+{
+  for (int i = 0; i < n; i++)
+    {
+      filtered[i] = value[i];
+      for (int k = i > BUMP ? i - BUMP : 0; k <= i + BUMP && k < n; k++)
+        filtered[i] = sign * fmax (sign * filtered[i], sign * value[k]);
+    }
+}
+
+/* Do short pieces fall, too, but for bumps where other strokes cross?  A short arrow may lead to a long one. */
+static bool
+falls_closely (const CeldArrowStroke *stroke, const CeldArrowLayer *layer, CeldArrowStyle style, bool back,
+               double margin, double widest)
+{
+  double value[FINE_PIECES], low[FINE_PIECES], most = 0, least = INFINITY;
+  int    n = (int) fmin (FINE_PIECES, (celd_stroke_length (stroke) - 2 * margin) / fmax (3, widest)), from;
+
+  if (n < MOST_PIECES)
+    return true;
+  measure (stroke, layer, style, margin, n, value);
+  filter (value, n, -1, low);
+  filter (low, n, 1, value);
+  for (int i = 0; i < n; i++)
+    {
+      most  = fmax (most, value[i]);
+      least = fmin (least, value[i]);
+    }
+  return largest_rise (value, n, back, &from) <= FINE_RISE * (most - least) + NOISE * most;
+}
+
 static bool
 has_sharp_corner (const CeldArrowStroke *stroke, double widest)
 {
@@ -254,7 +290,8 @@ celd_arrow_profile (CeldArrowStroke *stroke, const CeldArrowLayer *layer, CeldAr
   least = fmin (third[0], third[2]);
   if (most - least < LEAST_SIGNAL * most || third[1] < least - SLACK * most || third[1] > most + SLACK * most)
     return false;
-  if (!falls (stroke, value, n, third[0] < third[2], margin, widths[0]))
+  if (!falls (stroke, value, n, third[0] < third[2], margin, widths[0]) ||
+      !falls_closely (stroke, layer, style, third[0] < third[2], margin, widths[0]))
     return false;
   w     = fmax (1, fmin (celd_stroke_mean_width (stroke, 0, length), length / 3));
   first = celd_stroke_centroid (stroke, 0, w);

@@ -53,6 +53,30 @@ opaque_ends_are_nearer (void)
     }
 }
 
+/* A short arrow leads straight to a long one: from end to end opacity or width falls, but they are two. */
+static void
+short_ones_lead_to_long_ones (void)
+{
+  for (int degrees = 0; degrees < 360; degrees += 15)
+    for (size_t s = 2; s < 4; s++)
+      {
+        double    angle = degrees * 0.0174532925, w = 5;
+        Arrow     first = through ((Point) { 200, 200 }, angle, 45, 4.6, w, STYLES[s], false);
+        Arrow     next = through (first.tip, angle, 300, 0, w, STYLES[s], false);
+        CeldPaint paint = blank (400, 400);
+        Answer    answer;
+
+        draw_arrow (&paint, &first, GREEN);
+        draw_arrow (&paint, &next, GREEN);
+        answer = read_paint (&paint, STYLES[s]);
+        CHECK (answer.relations.n ==
+               (size_t) is_read (&answer, &first, STYLES[s]) + is_read (&answer, &next, STYLES[s]));
+        CHECK (answer.relations.n + answer.problems.n >= 1);
+        forget (&answer);
+        free (paint.data);
+      }
+}
+
 /* Composites paint on a colour: a layer without alpha. */
 static void
 flatten (CeldPaint *paint, uint8_t paper)
@@ -193,6 +217,7 @@ main (void)
   RUN (dots_are_nearer);
   RUN (thick_ends_are_nearer);
   RUN (opaque_ends_are_nearer);
+  RUN (short_ones_lead_to_long_ones);
   RUN (layers_without_alpha);
   RUN (blue_arrows_crack);
   RUN (several_strokes);
