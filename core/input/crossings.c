@@ -19,6 +19,8 @@
 #define SAMPLES       256  /* on a circle, at most; chosen */
 #define MOST_TURN     0.6  /* radians that a stroke may turn at a crossing; chosen */
 #define BREADTH_RATIO 2.2  /* of the two arms of a stroke, at most; chosen */
+#define BLOB          0.75 /* breadths of the wider stroke: radius of a circle that only a dot or filled head has room for; ... */
+#define BLOB_MORE     1.5  /* ... and pixels more; 1 / sqrt (2) is the largest if the strokes are even; chosen */
 #define BEYOND        1.5  /* radii from the centre up to which an arm must continue; chosen */
 
 /* A possible crossing, and the larger angle by which one of its strokes turns, in radians. */
@@ -119,6 +121,22 @@ try_circle (const CeldStrokeMask *c, const Circle *circle, CeldPoint centre, dou
   return true;
 }
 
+/* Is there a dot or filled head in the inner half of a crossing?  Then several arrows end there. */
+static bool
+has_blob (const CeldStrokeMask *c, const CeldStrokeCrossing *x)
+{
+  double r = 0.5 * x->radius, widest = 0, most;
+
+  for (int i = 0; i < ARMS; i++)
+    widest = fmax (widest, x->breadth[i]);
+  most = BLOB * widest + BLOB_MORE;
+  for (int y = (int) fmax (0, x->centre.y - r); y <= x->centre.y + r && y < c->height; y++)
+    for (int u = (int) fmax (0, x->centre.x - r); u <= x->centre.x + r && u < c->width; u++)
+      if (c->squared[(size_t) y * (size_t) c->width + (size_t) u] > most * most)
+        return true;
+  return false;
+}
+
 /* Are at most two of the eight neighbours farther from the edge of the paint? */
 static bool
 is_medial (const CeldStrokeMask *c, size_t p)
@@ -157,7 +175,7 @@ find_candidates (const CeldStrokeMask *c, CrossingCandidate **list, size_t *n)
           if (try_circle (c, &circle, (CeldPoint) { x + 0.5, y + 0.5 }, radii[i] * sqrt (c->squared[p]) + 1, &one) &&
               one.turn < best.turn)
             best = one;
-        if (best.turn < INFINITY && celd_append (*list, *n, capacity, best) != CELD_OK)
+        if (best.turn < INFINITY && !has_blob (c, &best.crossing) && celd_append (*list, *n, capacity, best) != CELD_OK)
           return CELD_NO_MEMORY;
       }
   return CELD_OK;
