@@ -41,9 +41,8 @@ read_stroke (CeldArrowStroke *stroke, const CeldArrowLayer *layer, CeldArrowStyl
   return true;
 }
 
-/* Is the mean colour blue?  Such an arrow marks a crack. */
-static bool
-is_blue (const CeldArrowStroke *stroke, const CeldArrowLayer *layer)
+bool
+celd_arrow_is_blue (const CeldArrowStroke *stroke, const CeldArrowLayer *layer)
 {
   double red = 0, green = 0, blue = 0, most, least, hue;
 
@@ -95,7 +94,7 @@ read_one (CeldArrowStroke *stroke, const CeldArrowLayer *layer, CeldArrowStyle s
   CeldStatus    status = CELD_OK;
 
   if (read_stroke (stroke, layer, style, &ends))
-    status = add_arrow (&ends, is_blue (stroke, layer), relations);
+    status = add_arrow (&ends, celd_arrow_is_blue (stroke, layer), relations);
   else
     *clear = false;
   for (size_t i = 0; i < stroke->n; i++)

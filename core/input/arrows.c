@@ -148,9 +148,14 @@ read_component (CeldArrowStroke *stroke, const CeldArrowLayer *layer, CeldArrowS
   status = celd_arrow_strokes_read (stroke, layer, style, relations, &strokes, &clear);
   if (status == CELD_OK && !clear)
     status = celd_arrow_colours_split (stroke, layer, &colours);
-  if (status == CELD_OK && !clear)
-    status = colours.strokes.n ? celd_coloured_arrows_read (&colours, stroke, layer, style, relations, problems)
-                               : celd_arrow_strokes_report (stroke, &strokes, problems);
+  if (status == CELD_OK && !clear && colours.strokes.n)
+    status = celd_coloured_arrows_read (&colours, stroke, layer, style, relations, problems);
+  else if (status == CELD_OK && !clear)
+    {
+      status = celd_joined_arrows_read (stroke, layer, style, relations, problems, &clear);
+      if (status == CELD_OK && !clear)
+        status = celd_arrow_strokes_report (stroke, &strokes, problems);
+    }
   celd_crossing_strokes_clear (&strokes);
   celd_colour_strokes_clear (&colours);
   return status;

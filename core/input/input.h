@@ -18,6 +18,17 @@
  *   crossings.c          where strokes cross
  *   crossing-strokes.c   the strokes of a connected component in which some cross
  *   arrow-strokes.c      the arrow of paint of one colour, or those of strokes that cross in it
+ *   thinning.c           thins paint to lines of one pixel
+ *   stroke-trace.c       the lines of thinned paint, and where they meet
+ *   stroke-lines.c       length and corners of lines, and the point where several meet
+ *   stroke-graph.c       the long lines of paint
+ *   joined-lines.c       where the long lines of several arrows meet
+ *   explained-paint.c    the paint of lines that meet, and of their heads and dots
+ *   joined-marks.c       heads and dots where lines meet
+ *   free-ends.c          heads and dots at ends of lines that meet no other
+ *   joined-heads.c       which end of each of several lines that meet has its head or dot
+ *   joined-profiles.c    which way each of several lines that meet fades or tapers
+ *   joined-arrows.c      arrows of one colour that share ends
  *   arrow-colours.c      the paint of each colour of a component
  *   hidden-ends.c        where arrows end whose ends are hidden below others
  *   coloured-arrows.c    the arrows of a component of several colours
@@ -339,6 +350,9 @@ void celd_stroke_select (const CeldCrossingStrokes *strokes, size_t k, CeldArrow
 
 #define CELD_LEAST_STROKE 6 /* pixels; a smaller component is a speck and ignored; chosen */
 
+/* Is the mean colour of a stroke blue?  Such an arrow marks a crack. */
+bool celd_arrow_is_blue (const CeldArrowStroke *stroke, const CeldArrowLayer *layer);
+
 /* A problem at some pixel of a stroke that is no clear arrow. */
 CeldProblem celd_arrow_unclear (const CeldArrowStroke *stroke);
 
@@ -350,6 +364,59 @@ CeldStatus celd_arrow_strokes_read (CeldArrowStroke *stroke, const CeldArrowLaye
 /* Appends a problem for each stroke of connected paint that was not clear. */
 CeldStatus celd_arrow_strokes_report (const CeldArrowStroke *paint, const CeldCrossingStrokes *strokes,
                                       CeldProblems *problems);
+
+/* ------------------------------------------------------------------ thinning.c */
+
+/* Thins a mask to lines of one pixel.  Its border must be 0. */
+CeldStatus celd_thin (uint8_t *on, int width, int height);
+
+/* The eight neighbours of a pixel that is not on the border, clockwise from the one above. */
+void celd_thin_neighbours (const uint8_t *on, size_t width, size_t pixel, bool around[8]);
+
+/* ------------------------------------------------------------------ stroke-trace.c, stroke-lines.c, stroke-graph.c */
+
+/* A line of thinned paint between two nodes, pixel by pixel, in coordinates of its mask. */
+typedef struct { CeldPoint *at; size_t n, capacity; int node[2]; } CeldStrokeLine;
+
+/* Lines that should meet in a point: the sums of their normal equations, from which it follows by least squares. */
+typedef struct { double xx, xy, yy, x, y; } CeldLineSums;
+
+/* Where lines end or meet, and the short branches that were there. */
+typedef struct { CeldPoint at; bool branched; CeldLineSums branches; } CeldStrokeNode;
+
+typedef struct
+{
+  CeldStrokeLine *line;
+  CeldStrokeNode *node;
+  size_t          n_lines, n_nodes, capacity, node_capacity;
+  double          width; /* of the lines, in pixels, at least 1 */
+} CeldStrokeGraph;
+
+/* All lines of the thinned paint of a mask; or the long ones, `even`: of paint that is as wide everywhere, so that
+ * they are divided where it is wider.  To be cleared by the caller.  Closed lines that meet no other one are left out. */
+CeldStatus celd_stroke_trace (const CeldStrokeMask *mask, CeldStrokeGraph *graph);
+CeldStatus celd_stroke_graph_new (const CeldStrokeMask *mask, bool even, CeldStrokeGraph *graph);
+void       celd_stroke_graph_clear (CeldStrokeGraph *graph);
+
+/* Joins the two lines of a node, if it has two, into one. */
+CeldStatus celd_stroke_graph_join (CeldStrokeGraph *graph, int node);
+
+double celd_stroke_line_length (const CeldStrokeLine *line);
+
+/* The sharpest corner of a line: where its sides meet; false if it has none. */
+bool celd_stroke_line_corner (const CeldStrokeGraph *graph, size_t line, CeldPoint *place);
+
+/* Adds a line through a point, in a direction of length 1.  The point nearest to all lines; `prior` decides if they are
+ * parallel or none. */
+void      celd_line_sums_add (CeldLineSums *sums, CeldPoint p, CeldPoint way, double weight);
+CeldPoint celd_line_sums_point (const CeldLineSums *sums, CeldPoint prior);
+
+/* ------------------------------------------------------------------ joined-arrows.c */
+
+/* Appends the arrows of connected paint of one colour whose ends meet, and a problem for each line that is unclear.
+ * *any: there are such arrows, at least two; else nothing is appended. */
+CeldStatus celd_joined_arrows_read (CeldArrowStroke *stroke, const CeldArrowLayer *layer, CeldArrowStyle style,
+                                    CeldRelations *relations, CeldProblems *problems, bool *any);
 
 /* ------------------------------------------------------------------ arrow-colours.c */
 

@@ -1,0 +1,124 @@
+/* The paint of joined lines that is explained: that of the lines, and of the heads and dots that were found.
+ *
+ * Paint that nothing explains may be of another arrow, so that what is beside it is unclear.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "input/joined-arrows.h"
+
+#include <math.h>
+#include <string.h>
+
+/* All chosen; lengths are widths of the paint. */
+#define BODY       0.6 /* from the middle of a line to the edge of its paint, ... */
+#define BODY_MORE  1   /* ... and pixels more */
+#define BARB_FROM  0.5 /* from the tip to where a barb begins */
+#define EDGE_MORE  1.5 /* pixels more than the radius of a dot or wide line that belong to it */
+#define REST_ALONG 2.5 /* from the middle of a line, where no other paint may be, ... */
+#define MOST_ALONG 1   /* ... but so many square widths */
+
+static void
+explain_disc (CeldJoinedLines *s, CeldPoint c, double r)
+{
+  for (int y = (int) fmax (0, c.y - r); y <= c.y + r && y < s->mask.height; y++)
+    for (int x = (int) fmax (0, c.x - r); x <= c.x + r && x < s->mask.width; x++)
+      if (hypot (x + 0.5 - c.x, y + 0.5 - c.y) <= r)
+        s->explained[(size_t) y * (size_t) s->mask.width + (size_t) x] = 1;
+}
+
+/* Marks the paint of a straight line as explained. */
+static void
+explain (CeldJoinedLines *s, CeldPoint from, CeldPoint to)
+{
+  double r = BODY * s->graph.width + BODY_MORE, length = hypot (to.x - from.x, to.y - from.y);
+
+  for (double d = 0; d <= length; d += 0.5)
+    explain_disc (s, (CeldPoint) { from.x + (to.x - from.x) * d / fmax (length, 1),
+                                   from.y + (to.y - from.y) * d / fmax (length, 1) }, r);
+}
+
+void
+celd_joined_explain_lines (CeldJoinedLines *s)
+{
+  memset (s->explained, 0, (size_t) s->mask.width * (size_t) s->mask.height);
+  for (size_t k = 0; k < s->graph.n_lines; k++)
+    {
+      const CeldStrokeLine *line = &s->graph.line[k];
+      size_t                skip = celd_joined_lead (s, 2 * k);
+
+      for (size_t i = skip; i + skip + 1 < line->n; i++)
+        explain (s, line->at[i], line->at[i + 1]);
+      for (size_t end = 2 * k; end < 2 * k + 2; end++)
+        explain (s, celd_joined_led_from (s, end), s->end[end].tip);
+    }
+}
+
+void
+celd_joined_explain_wide_lines (CeldJoinedLines *s)
+{
+  memset (s->explained, 0, (size_t) s->mask.width * (size_t) s->mask.height);
+  for (size_t k = 0; k < s->graph.n_lines; k++)
+    for (size_t i = 0; i < s->graph.line[k].n; i++)
+      {
+        CeldPoint c = s->graph.line[k].at[i];
+
+        explain_disc (s, c, sqrt (s->mask.squared[celd_joined_pixel (s, c)]) + EDGE_MORE);
+      }
+}
+
+void
+celd_joined_explain_head (CeldJoinedLines *s, const CeldJoinedEnd *e)
+{
+  for (int side = 0; side < 2; side++)
+    if (e->side[side] >= 0)
+      {
+        double r = BARB_FROM * s->graph.width;
+
+        while (r < CELD_HEAD_REACH * s->graph.width && celd_joined_painted (s, celd_moved (e->tip, e->barb[side], r)))
+          r += 0.5;
+        for (double t = 0; t <= 1; t += 0.1) /* up to the line: the head may be filled */
+          {
+            CeldPoint d = { e->barb[side].x + t * (e->way.x - e->barb[side].x),
+                            e->barb[side].y + t * (e->way.y - e->barb[side].y) };
+
+            explain (s, e->tip, celd_moved (e->tip, d, r));
+          }
+      }
+}
+
+void
+celd_joined_explain_dot (CeldJoinedLines *s, const CeldJoinedEnd *e)
+{
+  if (celd_joined_inside (s, e->tip))
+    explain_disc (s, e->tip, sqrt (s->mask.squared[celd_joined_pixel (s, e->tip)]) + EDGE_MORE);
+}
+
+int
+celd_joined_paint_at (const CeldJoinedLines *s, CeldPoint p)
+{
+  if (!celd_joined_inside (s, p))
+    return 0;
+  return s->explained[celd_joined_pixel (s, p)] ? -1 : s->mask.painted[celd_joined_pixel (s, p)];
+}
+
+double
+celd_joined_rest (const CeldJoinedLines *s, CeldPoint place, double reach)
+{
+  double r = reach * s->graph.width, rest = 0;
+
+  for (double y = place.y - r; y <= place.y + r; y++)
+    for (double x = place.x - r; x <= place.x + r; x++)
+      rest += hypot (x - place.x, y - place.y) <= r && celd_joined_paint_at (s, (CeldPoint) { x, y }) > 0;
+  return rest / (s->graph.width * s->graph.width);
+}
+
+bool
+celd_joined_is_alone (const CeldJoinedLines *s, size_t k, size_t margin)
+{
+  const CeldStrokeLine *line = &s->graph.line[k];
+
+  for (size_t i = margin; i + margin < line->n; i += 1 + (size_t) s->graph.width)
+    if (celd_joined_rest (s, line->at[i], REST_ALONG) > MOST_ALONG)
+      return false;
+  return true;
+}

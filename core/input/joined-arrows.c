@@ -1,0 +1,154 @@
+/* Arrows of one colour that share ends: several from one point, several to one point, or one behind the other.
+ *
+ * The paint is a graph of lines (stroke-graph.c), of which each may be an arrow: joined-heads.c reads those with heads or
+ * dots, joined-profiles.c those that fade or taper.  Two lines that meet and go straight on may be one arrow that passes
+ * there.  They are read only if both begin or both end there, or if the head is clear between them.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "input/joined-arrows.h"
+
+#include <math.h>
+
+#define STRAIGHT   0.5 /* radians by which an arrow may turn where it passes others; chosen */
+#define MOST_LINES 200 /* of connected paint; more are a drawing, or hatching; chosen */
+
+static bool
+is_long (const CeldJoinedLines *s, size_t line)
+{
+  return celd_stroke_line_length (&s->graph.line[line]) >= CELD_LEAST_LINE * s->graph.width;
+}
+
+/* Do two lines that meet at these ends go straight on? */
+static bool
+go_straight_on (const CeldJoinedLines *s, size_t a, size_t b)
+{
+  CeldPoint u = celd_joined_way (s, a), v = celd_joined_way (s, b);
+
+  return celd_joined_node (s, a) == celd_joined_node (s, b) && u.x * v.x + u.y * v.y < -cos (STRAIGHT);
+}
+
+/* Is it beyond doubt that an arrow ends between two lines that meet?  A dot may be of another line that ends there. */
+static bool
+ends_between (const CeldJoinedLines *s, const CeldLineArrows *arrows, size_t a, size_t b)
+{
+  int n = 0;
+
+  for (size_t c = 0; c < 2 * s->graph.n_lines; c++)
+    n += celd_joined_node (s, c) == celd_joined_node (s, a);
+  return (arrows[a / 2].seen[a % 2] || arrows[b / 2].seen[b % 2]) && (s->style != CELD_ARROW_DOT || n == 2);
+}
+
+/* May a line be part of an arrow that passes at one of its ends? */
+static bool
+may_pass (const CeldJoinedLines *s, const CeldLineArrows *arrows, size_t k)
+{
+  for (size_t a = 2 * k; a < 2 * k + 2; a++)
+    for (size_t b = 0; b < 2 * s->graph.n_lines; b++)
+      if (b / 2 != k && is_long (s, b / 2) && go_straight_on (s, a, b))
+        {
+          int here = arrows[k].role[a % 2], there = arrows[b / 2].role[b % 2];
+
+          if (!there || (here != there && !ends_between (s, arrows, a, b)))
+            return true;
+        }
+  return false;
+}
+
+/* Is a line that meets another one at its ends unclear? */
+static bool
+meets_unclear (const CeldJoinedLines *s, const CeldLineArrows *arrows, size_t k)
+{
+  for (size_t a = 2 * k; a < 2 * k + 2; a++)
+    for (size_t b = 0; b < 2 * s->graph.n_lines; b++)
+      if (celd_joined_node (s, a) == celd_joined_node (s, b) && !arrows[b / 2].role[b % 2])
+        return true;
+  return false;
+}
+
+/* Removes the arrows of lines that may be parts of others, or that meet lines that are unclear. */
+static void
+remove_passing (const CeldJoinedLines *s, CeldLineArrows *arrows)
+{
+  for (size_t k = 0; k < s->graph.n_lines; k++)
+    if (meets_unclear (s, arrows, k))
+      arrows[k].n = 0;
+  for (size_t k = 0; k < s->graph.n_lines; k++)
+    if (!arrows[k].n)
+      arrows[k] = (CeldLineArrows) { .n = 0 };
+  for (bool again = true; again;)
+    {
+      again = false;
+      for (size_t k = 0; k < s->graph.n_lines; k++)
+        if (arrows[k].n && may_pass (s, arrows, k))
+          {
+            arrows[k] = (CeldLineArrows) { .n = 0 };
+            again     = true;
+          }
+    }
+}
+
+/* Appends the arrows of a line, or a problem in its middle. */
+static CeldStatus
+add_line (const CeldJoinedLines *s, size_t k, const CeldLineArrows *arrows, bool crack, CeldRelations *relations,
+          CeldProblems *problems)
+{
+  CeldPoint  middle = s->graph.line[k].at[s->graph.line[k].n / 2];
+  CeldStatus status = CELD_OK;
+
+  for (int i = 0; i < arrows->n && status == CELD_OK; i++)
+    status = celd_relation_add (relations, (CeldRelation) {
+      .nearer  = { .x = arrows->nearer[i].x + s->mask.left, .y = arrows->nearer[i].y + s->mask.top },
+      .farther = { .x = arrows->farther[i].x + s->mask.left, .y = arrows->farther[i].y + s->mask.top },
+      .crack   = crack, .weight = 1, .gap = 1, .source = CELD_SOURCE_ARROW,
+    });
+  if (!arrows->n)
+    status = celd_problem_add (problems, (CeldProblem) {
+      .kind = CELD_PROBLEM_ARROW_UNCLEAR, .relation = CELD_NO_INDEX,
+      .x = (int) middle.x + s->mask.left, .y = (int) middle.y + s->mask.top,
+    });
+  return status;
+}
+
+/* Reads all lines.  *n: arrows; fewer than two are none, because a single stroke that is unclear stays so. */
+static CeldStatus
+read_lines (CeldJoinedLines *s, const CeldArrowLayer *layer, CeldRelations *relations, CeldProblems *problems, int *n)
+{
+  bool            crack = celd_arrow_is_blue (s->stroke, layer);
+  bool            profiles = s->style == CELD_ARROW_FADE || s->style == CELD_ARROW_TAPER;
+  CeldLineArrows *arrows = celd_alloc0 (s->graph.n_lines, sizeof *arrows);
+  CeldStatus      status = !arrows ? CELD_NO_MEMORY : profiles ? celd_joined_profiles_read (s, layer, arrows)
+                                                               : celd_joined_heads_read (s, arrows);
+
+  if (status == CELD_OK)
+    remove_passing (s, arrows);
+  for (size_t k = 0; k < s->graph.n_lines && status == CELD_OK; k++)
+    *n += arrows[k].n;
+  for (size_t k = 0; k < s->graph.n_lines && status == CELD_OK && *n > 1; k++)
+    if (is_long (s, k))
+      status = add_line (s, k, &arrows[k], crack, relations, problems);
+  celd_free (arrows);
+  return status;
+}
+
+CeldStatus
+celd_joined_arrows_read (CeldArrowStroke *stroke, const CeldArrowLayer *layer, CeldArrowStyle style,
+                         CeldRelations *relations, CeldProblems *problems, bool *any)
+{
+  CeldJoinedLines s = { .style = style, .stroke = stroke };
+  int             n = 0;
+  CeldStatus      status = celd_stroke_mask_new (stroke, &s.mask);
+
+  if (status == CELD_OK)
+    status = celd_stroke_graph_new (&s.mask, style == CELD_ARROW_HEAD || style == CELD_ARROW_DOT, &s.graph);
+  if (status == CELD_OK && !(s.explained = celd_alloc ((size_t) s.mask.width * (size_t) s.mask.height, 1)))
+    status = CELD_NO_MEMORY;
+  if (status == CELD_OK && s.graph.n_lines && s.graph.n_lines <= MOST_LINES)
+    status = read_lines (&s, layer, relations, problems, &n);
+  *any = n > 1;
+  celd_free (s.end);
+  celd_free (s.explained);
+  celd_stroke_graph_clear (&s.graph);
+  celd_stroke_mask_clear (&s.mask);
+  return status;
+}

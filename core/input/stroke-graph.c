@@ -1,0 +1,289 @@
+/* The long lines of connected paint, and the nodes where they meet or end.
+ *
+ * Of the lines of the thinned paint (stroke-trace.c) short branches are rough edges or parts of arrowheads; they are left
+ * out, but their directions show where lines meet.  Nodes near each other are one, because thinned strokes rarely meet in
+ * one pixel.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "base/base.h"
+#include "input/input.h"
+
+#include <math.h>
+#include <string.h>
+
+/* All chosen; lengths are widths of the paint. */
+#define ROUGH         1.2  /* radii of the paint where a branch begins: one no longer than that is a rough edge; ... */
+#define ROUGH_MORE    1    /* ... and pixels more */
+#define BRANCH         7    /* length of a branch that is no stroke, ... */
+#define LONGER        1.5  /* ... and how many times as long another line of its node is */
+#define BRANCH_WEIGHT 0.5  /* of a branch where lines should meet; of lines: 1 */
+#define FILLED        0.95 /* radius of the paint where branches are of a filled head, and do not meet at its tip */
+#define NEAR          5.5  /* between nodes that are one */
+#define LOOP          14   /* length of a line that returns to its node and is no stroke */
+#define WIDE          1.4  /* width of a place where a line is divided, ... */
+#define WIDE_MARGIN   4    /* ... at least so far from its ends */
+
+typedef struct { const CeldStrokeMask *mask; CeldStrokeGraph graph; } Build;
+
+static void
+remove_line (CeldStrokeGraph *g, size_t k)
+{
+  celd_free (g->line[k].at);
+  g->line[k] = g->line[--g->n_lines];
+}
+
+static int
+degree (const CeldStrokeGraph *g, int node)
+{
+  int n = 0;
+
+  for (size_t k = 0; k < g->n_lines; k++)
+    n += (g->line[k].node[0] == node) + (g->line[k].node[1] == node);
+  return n;
+}
+
+static double
+radius_at (const Build *b, CeldPoint p)
+{
+  return sqrt (b->mask->squared[(size_t) p.y * (size_t) b->mask->width + (size_t) p.x]);
+}
+
+static double
+longest_at (const CeldStrokeGraph *g, int node)
+{
+  double longest = 0;
+
+  for (size_t k = 0; k < g->n_lines; k++)
+    if (g->line[k].node[0] == node || g->line[k].node[1] == node)
+      longest = fmax (longest, celd_stroke_line_length (&g->line[k]));
+  return longest;
+}
+
+/* Adds the direction of the outer half of a branch to its node. */
+static void
+add_branch (CeldStrokeGraph *g, const CeldStrokeLine *line, int free_end)
+{
+  CeldPoint a = line->at[free_end ? line->n - 1 : 0], b = line->at[line->n / 2];
+  double    length = hypot (a.x - b.x, a.y - b.y);
+
+  if (length > 0)
+    celd_line_sums_add (&g->node[line->node[!free_end]].branches, a,
+                        (CeldPoint) { (a.x - b.x) / length, (a.y - b.y) / length }, BRANCH_WEIGHT);
+}
+
+/* The free end of a line that is a short branch of a node: 0 or 1; -1 = it is none. */
+static int
+branch_end (const CeldStrokeGraph *g, const CeldStrokeLine *line, const int *ends)
+{
+  int    free_end = ends[line->node[0]] == 1 ? 0 : 1, hub = line->node[!free_end];
+  double length = celd_stroke_line_length (line);
+
+  return ends[line->node[free_end]] == 1 && ends[hub] > 2 && length <= BRANCH * g->width &&
+         LONGER * length <= longest_at (g, hub) ? free_end : -1;
+}
+
+static bool
+is_rough (const Build *b, const CeldStrokeLine *line, int hub)
+{
+  return celd_stroke_line_length (line) <= ROUGH * radius_at (b, b->graph.node[hub].at) + ROUGH_MORE;
+}
+
+/* Removes branches with a free end that are no longer than rough edges or the lines of arrowheads, but for one beside a
+ * rough edge: that is the end of a stroke. */
+static CeldStatus
+remove_branches (Build *b)
+{
+  CeldStrokeGraph *g = &b->graph;
+  int             *ends = celd_alloc0 (3 * g->n_nodes + 1, sizeof *ends);
+  int             *left = ends + g->n_nodes; /* lines that stay */
+  int             *real = left + g->n_nodes; /* branches that are not rough */
+
+  if (!ends)
+    return CELD_NO_MEMORY;
+  for (size_t k = 0; k < 2 * g->n_lines; k++)
+    ends[g->line[k / 2].node[k % 2]]++;
+  memcpy (left, ends, g->n_nodes * sizeof *left);
+  for (size_t k = 0; k < g->n_lines; k++)
+    {
+      int end = branch_end (g, &g->line[k], ends), hub = end < 0 ? 0 : g->line[k].node[!end];
+
+      left[hub] -= end >= 0;
+      real[hub] += end >= 0 && !is_rough (b, &g->line[k], hub);
+    }
+  for (size_t k = g->n_lines; k-- > 0;)
+    {
+      CeldStrokeLine *line = &g->line[k];
+      int             end = branch_end (g, line, ends), hub = end < 0 ? 0 : line->node[!end];
+      bool            rough = end >= 0 && is_rough (b, line, hub);
+
+      if (end < 0 || (!rough && left[hub] == 1 && real[hub] == 1))
+        continue;
+      if (!rough && radius_at (b, g->node[hub].at) < FILLED * g->width)
+        add_branch (g, line, end);
+      g->node[hub].branched |= !rough;
+      remove_line (g, k);
+    }
+  celd_free (ends);
+  return CELD_OK;
+}
+
+static void
+reverse (CeldStrokeLine *line)
+{
+  int node = line->node[0];
+
+  line->node[0] = line->node[1];
+  line->node[1] = node;
+  for (size_t i = 0; i < line->n / 2; i++)
+    {
+      CeldPoint p = line->at[i];
+
+      line->at[i] = line->at[line->n - 1 - i];
+      line->at[line->n - 1 - i] = p;
+    }
+}
+
+CeldStatus
+celd_stroke_graph_join (CeldStrokeGraph *g, int node)
+{
+  size_t     with[2] = { 0, 0 };
+  int        n = 0;
+  CeldStatus status = CELD_OK;
+
+  for (size_t k = 0; k < g->n_lines; k++)
+    for (int end = 0; end < 2; end++)
+      if (g->line[k].node[end] == node && n++ < 2)
+        with[n - 1] = k;
+  if (n != 2 || with[0] == with[1])
+    return CELD_OK;
+  if (g->line[with[0]].node[1] != node)
+    reverse (&g->line[with[0]]);
+  if (g->line[with[1]].node[0] != node)
+    reverse (&g->line[with[1]]);
+  for (size_t i = 1; i < g->line[with[1]].n && status == CELD_OK; i++)
+    status = celd_append (g->line[with[0]].at, g->line[with[0]].n, g->line[with[0]].capacity, g->line[with[1]].at[i]);
+  g->line[with[0]].node[1] = g->line[with[1]].node[1];
+  remove_line (g, with[1]);
+  return status;
+}
+
+/* Joins the two lines of each node that has no more and, unless `all`, had no longer branches: those may be of a
+ * head. */
+static CeldStatus
+join_lines (CeldStrokeGraph *g, bool all)
+{
+  CeldStatus status = CELD_OK;
+
+  for (size_t node = 0; node < g->n_nodes && status == CELD_OK; node++)
+    if (all || !g->node[node].branched)
+      status = celd_stroke_graph_join (g, (int) node);
+  return status;
+}
+
+static void
+add_node (CeldStrokeNode *a, const CeldStrokeNode *b)
+{
+  a->at        = (CeldPoint) { (a->at.x + b->at.x) / 2, (a->at.y + b->at.y) / 2 };
+  a->branched |= b->branched;
+  a->branches  = (CeldLineSums) {
+    a->branches.xx + b->branches.xx, a->branches.xy + b->branches.xy, a->branches.yy + b->branches.yy,
+    a->branches.x + b->branches.x, a->branches.y + b->branches.y,
+  };
+}
+
+/* Makes nodes one that a short line connects, and removes that line. */
+static void
+merge_nodes (CeldStrokeGraph *g)
+{
+  for (size_t k = g->n_lines; k-- > 0;)
+    {
+      int a = g->line[k].node[0], b = g->line[k].node[1];
+
+      if (degree (g, a) < 2 || degree (g, b) < 2 ||
+          celd_stroke_line_length (&g->line[k]) > (a == b ? LOOP : NEAR) * g->width)
+        continue;
+      for (size_t i = 0; i < g->n_lines; i++)
+        for (int end = 0; end < 2; end++)
+          if (g->line[i].node[end] == b)
+            g->line[i].node[end] = a;
+      if (a != b)
+        add_node (&g->node[a], &g->node[b]);
+      remove_line (g, k);
+    }
+}
+
+/* Divides a line at a point, which becomes a node. */
+static CeldStatus
+divide (CeldStrokeGraph *g, size_t k, size_t at)
+{
+  CeldStrokeLine rest = { .node = { (int) g->n_nodes, g->line[k].node[1] } };
+  CeldStrokeNode node = { .at = g->line[k].at[at], .branched = true };
+  CeldStatus     status = celd_append (g->node, g->n_nodes, g->node_capacity, node);
+
+  for (size_t i = at; i < g->line[k].n && status == CELD_OK; i++)
+    status = celd_append (rest.at, rest.n, rest.capacity, g->line[k].at[i]);
+  if (status == CELD_OK)
+    status = celd_append (g->line, g->n_lines, g->capacity, rest);
+  if (status != CELD_OK)
+    {
+      celd_free (rest.at);
+      return status;
+    }
+  g->line[k].n       = at + 1;
+  g->line[k].node[1] = rest.node[0];
+  return CELD_OK;
+}
+
+/* Divides lines where the paint is much wider, as it is at filled heads and dots. */
+static CeldStatus
+divide_where_wide (Build *b)
+{
+  CeldStrokeGraph *g = &b->graph;
+  size_t           margin = (size_t) (WIDE_MARGIN * g->width);
+  CeldStatus       status = CELD_OK;
+
+  for (size_t k = 0; k < g->n_lines && status == CELD_OK; k++)
+    {
+      size_t widest = 0;
+      double most = 0.5 * WIDE * g->width;
+
+      for (size_t i = margin; i + margin < g->line[k].n; i++)
+        if (radius_at (b, g->line[k].at[i]) - 0.5 > most)
+          {
+            most   = radius_at (b, g->line[k].at[i]) - 0.5;
+            widest = i;
+          }
+      if (widest)
+        {
+          status = divide (g, k, widest);
+          k -= status == CELD_OK;
+        }
+    }
+  return status;
+}
+
+CeldStatus
+celd_stroke_graph_new (const CeldStrokeMask *mask, bool even, CeldStrokeGraph *graph)
+{
+  Build      b = { .mask = mask };
+  CeldStatus status = celd_stroke_trace (mask, &b.graph);
+
+  if (status == CELD_OK)
+    status = join_lines (&b.graph, false);
+  if (status == CELD_OK)
+    {
+      merge_nodes (&b.graph);
+      status = remove_branches (&b);
+    }
+  if (status == CELD_OK)
+    status = join_lines (&b.graph, false);
+  if (status == CELD_OK)
+    merge_nodes (&b.graph);
+  if (status == CELD_OK && even)
+    status = divide_where_wide (&b);
+  if (status != CELD_OK)
+    celd_stroke_graph_clear (&b.graph);
+  *graph = b.graph;
+  return status;
+}

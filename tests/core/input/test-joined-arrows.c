@@ -1,0 +1,147 @@
+/* Arrows of one colour that share ends: read where heads, dots, opacity or width tell, and none wrongly.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "shared-ends.h"
+
+static const uint8_t ONE[4][3] = { { 20, 160, 60 }, { 20, 160, 60 }, { 20, 160, 60 }, { 20, 160, 60 } };
+
+static void
+two_that_leave (void)
+{
+  read_shared (FAN_OUT, 2, ONE, 0.6);
+}
+
+static void
+three_that_leave (void)
+{
+  read_shared (FAN_OUT, 3, ONE, 0.6);
+}
+
+static void
+two_that_arrive (void)
+{
+  read_shared (FAN_IN, 2, ONE, 0.6);
+}
+
+static void
+three_that_arrive (void)
+{
+  read_shared (FAN_IN, 3, ONE, 0.6);
+}
+
+static void
+head_to_tail (void)
+{
+  read_shared (CHAIN, 2, ONE, 0.6);
+}
+
+static void
+side_by_side (void)
+{
+  read_shared (OVERLAP, 2, ONE, 0);
+}
+
+static void
+at_any_angles (void)
+{
+  read_at_any_angles (ONE, 0);
+}
+
+/* Strokes that meet and have neither heads nor dots, and are as opaque and wide everywhere, are not several arrows.  Three
+ * may look like one with long barbs. */
+static void
+bare_strokes (void)
+{
+  uint32_t state = 7;
+
+  for (int i = 0; i < 200; i++)
+    {
+      CeldPaint paint = blank (SIZE, SIZE);
+      double    w = random_between (&state, 3, 8);
+      int       n = 2 + (int) check_random (&state, 3);
+      Answer    answer;
+
+      for (int k = 0; k < n; k++)
+        {
+          Arrow a = arrow_at ((Point) { SIZE / 2., SIZE / 2. }, random_between (&state, 0, 6.28),
+                              random_between (&state, 8, 16) * w, w, 0, 0, BARE, 0);
+
+          draw_arrow (&paint, &a, GREEN);
+        }
+      answer = read_paint (&paint, STYLES[i % 4]);
+      CHECK (answer.relations.n <= 1 && answer.relations.n + answer.problems.n >= 1);
+      forget (&answer);
+      free (paint.data);
+    }
+}
+
+/* Some of the lines of a drawn net have heads; whatever is read is one of them. */
+static void
+in_a_net (void)
+{
+  uint32_t state = 17;
+
+  for (int i = 0; i < 80; i++)
+    {
+      CeldPaint      paint = blank (SIZE, SIZE);
+      CeldArrowStyle style = STYLES[i % 4];
+      double         w = random_between (&state, 3, 5);
+      Point          place[4];
+      Arrow          a[5];
+      size_t         found = 0;
+      int            n = 3 + (int) check_random (&state, 3);
+      Answer         answer;
+
+      for (int k = 0; k < 4; k++)
+        place[k] = (Point) { random_between (&state, 30, SIZE - 30), random_between (&state, 30, SIZE - 30) };
+      for (int k = 0; k < n; k++)
+        {
+          Point  from = place[k % 4], to = place[(k + 1 + k / 4) % 4];
+          double dx = to.x - from.x, dy = to.y - from.y;
+
+          a[k] = through (to, atan2 (dy, dx), hypot (dx, dy), 1, w, style, i % 8 < 4);
+          draw_arrow (&paint, &a[k], GREEN);
+        }
+      answer = read_paint (&paint, style);
+      for (int k = 0; k < n; k++)
+        found += is_read (&answer, &a[k], style);
+      CHECK (answer.relations.n == found);
+      forget (&answer);
+      free (paint.data);
+    }
+}
+
+/* All are blue, so that all crack. */
+static void
+cracks (void)
+{
+  CeldPaint paint = blank (SIZE, SIZE);
+  Arrow     a = spoke (0.4, 90, 5, CELD_ARROW_HEAD, false, false), b = spoke (2.5, 90, 5, CELD_ARROW_HEAD, false, true);
+  Answer    answer;
+
+  draw_arrow (&paint, &a, BLUE);
+  draw_arrow (&paint, &b, BLUE);
+  answer = read_paint (&paint, CELD_ARROW_HEAD);
+  CHECK (answer.relations.n == 2 && answer.problems.n == 0);
+  for (size_t i = 0; i < answer.relations.n; i++)
+    CHECK (answer.relations.item[i].crack);
+  forget (&answer);
+  free (paint.data);
+}
+
+int
+main (void)
+{
+  RUN (two_that_leave);
+  RUN (three_that_leave);
+  RUN (two_that_arrive);
+  RUN (three_that_arrive);
+  RUN (head_to_tail);
+  RUN (side_by_side);
+  RUN (at_any_angles);
+  RUN (bare_strokes);
+  RUN (in_a_net);
+  RUN (cracks);
+  return DONE;
+}
