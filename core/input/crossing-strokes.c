@@ -19,6 +19,7 @@ typedef struct
   CeldStrokeCrossing    *crossing;
   size_t                 n_crossings, n_pieces;
   CeldLabels             pieces;     /* of the mask, from 1; 0 = not painted, or in a crossing */
+  CeldLabels             discs;      /* of the mask: the crossing that a painted pixel is in, from 1; they are disjoint */
   CeldComponent         *piece;
   uint32_t              *parent;     /* of piece k - 1: union-find of strokes */
 } Pieces;
@@ -29,6 +30,7 @@ pieces_clear (Pieces *p)
   celd_stroke_mask_clear (&p->mask);
   celd_free (p->crossing);
   celd_free (p->pieces.data);
+  celd_free (p->discs.data);
   celd_free (p->piece);
   celd_free (p->parent);
 }
@@ -102,6 +104,8 @@ find_pieces (Pieces *p)
   const CeldStrokeMask *c = &p->mask;
   CeldStatus            status = celd_labels_new (c->width, c->height, &p->pieces);
 
+  if (status == CELD_OK)
+    status = celd_labels_new (c->width, c->height, &p->discs);
   if (status != CELD_OK)
     return status;
   for (size_t i = 0; i < (size_t) c->width * (size_t) c->height; i++)
@@ -114,8 +118,11 @@ find_pieces (Pieces *p)
 
       for (int y = (int) fmax (0, o.y - radius - 1); y < c->height && y <= o.y + radius; y++)
         for (int x = (int) fmax (0, o.x - radius - 1); x < c->width && x <= o.x + radius; x++)
-          if (in_disc (crossing, (CeldPoint) { x + 0.5, y + 0.5 }))
-            CELD_AT (&p->pieces, x, y) = 0;
+          if (CELD_AT (&p->pieces, x, y) && in_disc (crossing, (CeldPoint) { x + 0.5, y + 0.5 }))
+            {
+              CELD_AT (&p->pieces, x, y) = 0;
+              CELD_AT (&p->discs, x, y)  = (uint32_t) i + 1;
+            }
     }
   status = celd_components (&p->pieces, 0, true, NULL, &p->pieces, &p->piece, &p->n_pieces);
   if (status == CELD_OK && !(p->parent = celd_alloc (p->n_pieces + 1, sizeof *p->parent)))
@@ -164,18 +171,19 @@ in_band (const CeldStrokeCrossing *x, int arm, CeldPoint p)
   return fabs ((p.x - a.x) * (b.y - a.y) - (p.y - a.y) * (b.x - a.x)) <= half * length;
 }
 
-/* Is a point in a crossing, on the band of the stroke whose pieces have this root? */
+/* Is a pixel in a crossing, on the band of the stroke whose pieces have this root? */
 static bool
-crosses_at (Pieces *p, uint32_t root, CeldPoint place)
+crosses_at (Pieces *p, uint32_t root, int x, int y)
 {
-  for (size_t i = 0; i < p->n_crossings; i++)
-    for (int arm = 0; arm < 2 && in_disc (&p->crossing[i], place); arm++)
-      {
-        uint32_t piece = piece_at (p, &p->crossing[i], arm);
+  const CeldStrokeCrossing *crossing = &p->crossing[CELD_AT (&p->discs, x, y) - 1];
 
-        if (piece && celd_root (p->parent, piece - 1) == root && in_band (&p->crossing[i], arm, place))
-          return true;
-      }
+  for (int arm = 0; arm < 2; arm++)
+    {
+      uint32_t piece = piece_at (p, crossing, arm);
+
+      if (piece && celd_root (p->parent, piece - 1) == root && in_band (crossing, arm, (CeldPoint) { x + 0.5, y + 0.5 }))
+        return true;
+    }
   return false;
 }
 
@@ -192,8 +200,7 @@ add_stroke (Pieces *p, uint32_t root, CeldCrossingStrokes *to)
         uint32_t piece = CELD_AT (&p->pieces, x, y);
 
         if (piece ? celd_root (p->parent, piece - 1) != root
-                  : !c->painted[(size_t) y * (size_t) c->width + (size_t) x] ||
-                    !crosses_at (p, root, (CeldPoint) { x + 0.5, y + 0.5 }))
+                  : !CELD_AT (&p->discs, x, y) || !crosses_at (p, root, x, y))
           continue;
         if (celd_append (to->pixel, n, to->pixel_capacity,
                          (uint32_t) ((size_t) (y + c->top + 1) * row + (size_t) (x + c->left + 1))) != CELD_OK)
