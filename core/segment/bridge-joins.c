@@ -5,6 +5,9 @@
  * guess, so it parts nothing but basins; but where a line stops short of another one, and the parts on both sides are
  * wider than that gap, the page with bridges as lines has two rooms there.
  *
+ * Nobody drew a bridge: paint that is missing on one side comes over it rather than through ink.  So what it parts is
+ * listed as passages.
+ *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "base/base.h"
@@ -79,8 +82,14 @@ shuts (const PartsJoin *s, const CeldBridge *bridge)
   return bridge->line && narrower < BEYOND_FRAME && celd_is_clearly_wider (sqrt (narrower), bridge->length / 2);
 }
 
-/* Joins over bridges that are longer than `length` pixels or have one end only: those hold no paint back.  `rooms`: not
- * over those of a single end that nearly shut a room. */
+/* Does the bridge hold no paint back?  Such are longer than `length` pixels or have one end only. */
+static bool
+holds_nothing_back (const CeldBridge *bridge, double length)
+{
+  return bridge->ahead || bridge->length > length;
+}
+
+/* Joins over bridges that hold no paint back.  `rooms`: not over those of a single end that nearly shut a room. */
 static void
 join (PartsJoin *s, double length, bool rooms)
 {
@@ -88,7 +97,7 @@ join (PartsJoin *s, double length, bool rooms)
     {
       const CeldBridge *bridge = &s->bridges->item[i];
 
-      if (bridge->ahead ? !rooms || !shuts (s, bridge) : bridge->length > length)
+      if (holds_nothing_back (bridge, length) && !(rooms && bridge->ahead && shuts (s, bridge)))
         join_over (s, bridge);
     }
 }
@@ -183,4 +192,44 @@ celd_bridges_join (const CeldBridges *bridges, const CeldPlane *ink, CeldBasins 
   else
     celd_free (bridged);
   return status;
+}
+
+/* ------------------------------------------------------------------ passages */
+
+/* The basin of the paper at (x,y); false if there is none. */
+static bool
+paper_basin (const CeldPlane *ink, const CeldBasins *basins, int x, int y, uint32_t *basin)
+{
+  if (x < 0 || y < 0 || x >= ink->width || y >= ink->height || !celd_is_paper (CELD_AT (ink, x, y)))
+    return false;
+  *basin = celd_basin_at (basins, x, y);
+  return true;
+}
+
+CeldStatus
+celd_bridges_find_passages (const CeldBridges *bridges, const CeldPlane *ink, const CeldBasins *basins,
+                            CeldPassage **passage, size_t *n)
+{
+  static const int step[4][2] = { { 1, 0 }, { 0, 1 }, { -1, 0 }, { 0, -1 } };
+  CeldPassage     *found = NULL;
+  size_t           n_found = 0, capacity = 0;
+
+  for (size_t i = 0; i < bridges->n; i++)
+    for (size_t k = bridges->item[i].first; k < bridges->item[i].first + bridges->item[i].n; k++)
+      {
+        CeldBridgePixel p = bridges->pixel[k];
+        CeldPassage     pair = { .a = celd_basin_at (basins, p.x, p.y),
+                                 .narrow = !holds_nothing_back (&bridges->item[i], GAP * basins->stroke) };
+
+        for (int side = 0; side < 4; side++)
+          if (paper_basin (ink, basins, p.x + step[side][0], p.y + step[side][1], &pair.b) && pair.b != pair.a &&
+              celd_append (found, n_found, capacity, pair) != CELD_OK)
+            {
+              celd_free (found);
+              return CELD_NO_MEMORY;
+            }
+      }
+  *passage = found;
+  *n       = n_found;
+  return CELD_OK;
 }

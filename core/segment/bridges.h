@@ -78,4 +78,13 @@ CeldStatus celd_bridges_make_basins (const CeldPlane *ink, CeldRect *changed, fl
 CeldStatus celd_bridges_join (const CeldBridges *bridges, const CeldPlane *ink, CeldBasins *basins,
                               uint32_t **bridged_component);
 
+/* Two basins that a bridge parts, and that are one paper without it.  `narrow`: the bridge has two ends and is at most
+ * two stroke widths long, like a gap in a contour. */
+typedef struct { uint32_t a, b; bool narrow; } CeldPassage;
+
+/* Lists the passages, one for each pixel of a bridge and neighbour of it on paper in another basin; `ink` is without
+ * bridges.  To be freed with celd_free; CELD_NO_MEMORY is the only failure. */
+CeldStatus celd_bridges_find_passages (const CeldBridges *bridges, const CeldPlane *ink, const CeldBasins *basins,
+                                       CeldPassage **passage, size_t *n);
+
 #endif

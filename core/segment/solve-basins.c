@@ -10,18 +10,22 @@
  *
  * The energy gives a node without paint to the label with the longest border, through a thick outline rather than a
  * pinch.  So these are cut once more, with the labels of all others given: they go over the weakest barrier, or, if a
- * pinch has cut them off in a drawing with lines of a pixel, to the region that they are part of (pinches.c).
+ * pinch has cut them off in a drawing with lines of a pixel, to the region that they are part of (pinches.c).  Where
+ * no paper leads to paint, a bridge is a weaker barrier than any ink: nobody drew it (bridge-joins.c).
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "base/base.h"
 #include "segment/basins.h"
+#include "segment/bridges.h"
 #include "segment/task.h"
 #include "solve/maxflow.h"
 #include "solve/partition.h"
 
-#define OUTLINE_SHARE 16 /* an outline towards the background counts 1 / so much as a barrier (chosen) */
-#define SHARED        UINT32_MAX /* value of sole_label: several labels have paint there */
+#define OUTLINE_SHARE    16 /* an outline towards the background counts 1 / so much as a barrier (chosen) */
+#define PASSAGE_WEAKNESS ((int64_t) 1 << 20) /* of a pixel of a bridge as a barrier: as 1024 of the thinnest line, and
+                                              * far less than paper without a bridge (chosen) */
+#define SHARED           UINT32_MAX /* value of sole_label: several labels have paint there */
 
 typedef struct
 {
@@ -36,7 +40,8 @@ typedef struct
   CeldLink              *link;
   CeldVote              *vote;
   CeldPinch             *pinch;
-  size_t                 n_links, n_votes, n_pinches;
+  CeldPassage           *passage;
+  size_t                 n_links, n_votes, n_pinches, n_passages;
   size_t                 vote_capacity;
 } Graph;
 
@@ -71,6 +76,7 @@ graph_clear (Graph *g)
   celd_free (g->link);
   celd_free (g->vote);
   celd_free (g->pinch);
+  celd_free (g->passage);
 }
 
 /* ------------------------------------------------------------------ nodes */
@@ -209,20 +215,34 @@ gather_data_costs (Graph *g)
   return CELD_OK;
 }
 
+/* Is the background on one side? */
+static bool
+meets_background (const Graph *g, uint32_t a, uint32_t b)
+{
+  uint32_t p = g->fixed[g->node[a]], q = g->fixed[g->node[b]];
+
+  return (p && g->task->palette.item[p - 1].background) || (q && g->task->palette.item[q - 1].background);
+}
+
 /* How weak a boundary is as a barrier.  Closed lines towards the background are taken to be outlines: an unpainted part
  * inside one is rather a piece of the figure that the artist forgot. */
 static int64_t
 barrier_weakness (const Graph *g, const CeldBasinBoundary *b)
 {
-  uint32_t p = g->fixed[g->node[b->a]], q = g->fixed[g->node[b->b]];
-  bool     background = (p && g->task->palette.item[p - 1].background) ||
-                        (q && g->task->palette.item[q - 1].background);
+  return meets_background (g, b->a, b->b) && !b->opening ? b->weakness / OUTLINE_SHARE : b->weakness;
+}
 
-  return background && !b->opening ? b->weakness / OUTLINE_SHARE : b->weakness;
+/* How much weaker a boundary is by a passage.  What opens to the background may be a bay or a gap in an outline. */
+static int64_t
+passage_weakness (const Graph *g, const CeldPassage *passage)
+{
+  if (!meets_background (g, passage->a, passage->b))
+    return PASSAGE_WEAKNESS;
+  return passage->narrow ? 0 : PASSAGE_WEAKNESS / OUTLINE_SHARE;
 }
 
 /* Lists the boundaries between nodes, each with its smoothness cost or, if `barriers`, with how weak it is, and then
- * also the pinches; returns their number. */
+ * also the pinches and passages; returns their number. */
 static size_t
 list_links (const Graph *g, bool barriers, CeldLink *link)
 {
@@ -237,6 +257,9 @@ list_links (const Graph *g, bool barriers, CeldLink *link)
     }
   for (size_t i = 0; i < g->n_pinches && barriers; i++)
     link[n++] = (CeldLink) { g->node[g->pinch[i].a], g->node[g->pinch[i].b], g->pinch[i].weakness };
+  for (size_t i = 0; i < g->n_passages && barriers; i++)
+    link[n++] = (CeldLink) { g->node[g->passage[i].a], g->node[g->passage[i].b],
+                             passage_weakness (g, &g->passage[i]) };
   return n;
 }
 
@@ -244,7 +267,7 @@ list_links (const Graph *g, bool barriers, CeldLink *link)
 static CeldStatus
 gather_links (Graph *g, bool barriers)
 {
-  size_t      most = g->task->basins->n_boundaries + g->n_pinches, n;
+  size_t      most = g->task->basins->n_boundaries + g->n_pinches + g->n_passages, n;
   CeldLink   *listed = celd_alloc (most, sizeof *listed);
   size_t     *first = celd_alloc0 (g->n + 2, sizeof *first);      /* of node k's links, as the lesser node */
   uint32_t   *sorted = celd_alloc (most, sizeof *sorted);
@@ -311,9 +334,9 @@ fix_painted (Graph *g, bool *painted)
   return unpainted;
 }
 
-/* Finds the pinches of nodes that are not fixed, and makes room for their links. */
+/* Finds the pinches of nodes that are not fixed and the passages of all, and makes room for their links. */
 static CeldStatus
-find_pinches (Graph *g)
+find_ways (Graph *g)
 {
   const CeldBasins *basins = g->task->basins;
   bool             *wanted = celd_alloc (basins->n, sizeof *wanted);
@@ -324,10 +347,12 @@ find_pinches (Graph *g)
   if (status == CELD_OK)
     status = celd_pinches_find (g->task->ink, basins, wanted, &g->pinch, &g->n_pinches);
   celd_free (wanted);
-  if (status != CELD_OK || !g->n_pinches)
+  if (status == CELD_OK && g->task->bridges)
+    status = celd_bridges_find_passages (g->task->bridges, g->task->ink, basins, &g->passage, &g->n_passages);
+  if (status != CELD_OK || !(g->n_pinches + g->n_passages))
     return status;
   celd_free (g->link);
-  g->link = celd_alloc (basins->n_boundaries + g->n_pinches, sizeof *g->link);
+  g->link = celd_alloc (basins->n_boundaries + g->n_pinches + g->n_passages, sizeof *g->link);
   return g->link ? CELD_OK : CELD_NO_MEMORY;
 }
 
@@ -342,7 +367,7 @@ label_unpainted (Graph *g, const CeldHost *host)
   celd_free (painted);
   if (status != CELD_OK || !unpainted || unpainted == g->n)
     return status;
-  status = find_pinches (g);
+  status = find_ways (g);
   if (status == CELD_OK)
     status = gather_links (g, true);
   if (status == CELD_OK)

@@ -4,6 +4,7 @@
  */
 #include "check.h"
 #include "image/image.h"
+#include "scene.h"
 #include "segment/basins.h"
 #include "segment/task.h"
 
@@ -281,6 +282,98 @@ unpainted_parts_of_a_figure_are_no_background (void)
   page_close (&p);
 }
 
+/* ------------------------------------------------------------------ over bridges */
+
+#define SIDE 320
+#define PI   3.14159265358979
+
+static void
+draw_arc (Scene *s, double radius, double from, double to)
+{
+  for (double a = from; a < to - 1e-9; a += 0.05)
+    {
+      double b = fmin (a + 0.05, to);
+
+      scene_line (s, (CeldPlace) { SIDE / 2 + radius * cos (a), SIDE / 2 + radius * sin (a) },
+                  (CeldPlace) { SIDE / 2 + radius * cos (b), SIDE / 2 + radius * sin (b) }, 4);
+    }
+}
+
+/* A stroke of label k at (x,y). */
+static void
+paint (CeldLabels *seeds, uint32_t k, int x, int y)
+{
+  for (int i = -10; i <= 10; i++)
+    CELD_AT (seeds, x + i, y) = k;
+}
+
+/* The label of a pixel; `n` strokes of labels 1, 2 .. at x and y. */
+static uint32_t
+label_of (const Scene *s, const int (*at)[2], uint32_t n, int x, int y)
+{
+  CeldSettings settings = celd_settings ();
+  CeldPalette  palette = { calloc (n, sizeof (CeldRegion)), n };
+  CeldProblems problems = { 0 };
+  CeldLabels   seeds, labels;
+  uint32_t     label;
+
+  CHECK (celd_labels_new (SIDE, SIDE, &seeds) == CELD_OK && celd_labels_new (SIDE, SIDE, &labels) == CELD_OK);
+  for (uint32_t k = 0; k < n; k++)
+    {
+      palette.item[k] = (CeldRegion) { .colour = { (uint8_t) (40 * k), 0, 200, 255 } };
+      paint (&seeds, k + 1, at[k][0], at[k][1]);
+    }
+  CHECK (celd_segment (&s->ink, &seeds, NULL, &settings, NULL, &labels, &palette, &problems) == CELD_OK);
+  label = CELD_AT (&labels, x, y);
+  celd_free (seeds.data);
+  celd_free (labels.data);
+  celd_palette_clear (&palette);
+  celd_problems_clear (&problems);
+  return label;
+}
+
+/* A tube whose left half has paint; from both sides of its middle spikes point to each other.  Its right half touches
+ * the room above it along a thin line that is much longer than the way between the spikes. */
+static void
+missing_paint_comes_over_a_bridge_rather_than_through_a_line (void)
+{
+  static const int at[2][2] = { { 90, 160 }, { 220, 80 } };
+  Scene            s;
+
+  scene_open (SIDE, SIDE, &s);
+  scene_line (&s, (CeldPlace) { 40, 120 }, (CeldPlace) { 160, 120 }, 4);
+  scene_line (&s, (CeldPlace) { 160, 120 }, (CeldPlace) { 280, 120 }, 2);
+  scene_line (&s, (CeldPlace) { 40, 200 }, (CeldPlace) { 280, 200 }, 4);
+  scene_line (&s, (CeldPlace) { 40, 120 }, (CeldPlace) { 40, 200 }, 4);
+  scene_line (&s, (CeldPlace) { 280, 40 }, (CeldPlace) { 280, 200 }, 4);
+  scene_line (&s, (CeldPlace) { 160, 40 }, (CeldPlace) { 280, 40 }, 4);
+  scene_line (&s, (CeldPlace) { 160, 40 }, (CeldPlace) { 160, 152 }, 4);
+  scene_line (&s, (CeldPlace) { 160, 168 }, (CeldPlace) { 160, 200 }, 4);
+  CHECK (label_of (&s, at, 2, 90, 180) == 1 && label_of (&s, at, 2, 220, 60) == 2);
+  CHECK (label_of (&s, at, 2, 220, 180) == 1);
+  scene_close (&s);
+}
+
+/* The space between a disc and a circle round it, which is open over so many stroke widths, belongs to what is outside;
+ * but if that is a gap in a line, to the disc. */
+static void
+a_bay_is_background_and_a_part_inside_a_gap_is_not (void)
+{
+  static const int at[2][2] = { { 160, 160 }, { 160, 20 } };
+  Scene            s;
+
+  scene_open (SIDE, SIDE, &s);
+  draw_arc (&s, 40, 0, 2 * PI);
+  draw_arc (&s, 80, 0.15, 2 * PI - 0.15);
+  CHECK (label_of (&s, at, 2, 160, 300) == 2 && label_of (&s, at, 2, 160, 100) == 2);
+  scene_close (&s);
+  scene_open (SIDE, SIDE, &s);
+  draw_arc (&s, 40, 0, 2 * PI);
+  draw_arc (&s, 80, 0.06, 2 * PI - 0.06);
+  CHECK (label_of (&s, at, 2, 160, 300) == 2 && label_of (&s, at, 2, 160, 100) == 1);
+  scene_close (&s);
+}
+
 int
 main (void)
 {
@@ -290,6 +383,8 @@ main (void)
   RUN (paint_on_a_line_does_not_count);
   RUN (unpainted_enclosures_go_over_the_weakest_barrier);
   RUN (unpainted_parts_of_a_figure_are_no_background);
+  RUN (missing_paint_comes_over_a_bridge_rather_than_through_a_line);
+  RUN (a_bay_is_background_and_a_part_inside_a_gap_is_not);
   RUN (closed_enclosures_get_the_labels_of_exact_cuts);
   return DONE;
 }
