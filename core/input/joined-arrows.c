@@ -70,7 +70,7 @@ meets_unclear (const CeldJoinedLines *s, const CeldLineArrows *arrows, size_t k)
 static void
 remove_passing (const CeldJoinedLines *s, CeldLineArrows *arrows)
 {
-  for (size_t k = 0; k < s->graph.n_lines; k++)
+  for (size_t k = 0; k < s->graph.n_lines; k++) /* roles stay, so that these do not make others unclear */
     if (meets_unclear (s, arrows, k))
       arrows[k].n = 0;
   for (size_t k = 0; k < s->graph.n_lines; k++)
@@ -123,7 +123,7 @@ read_lines (CeldJoinedLines *s, const CeldArrowLayer *layer, CeldRelations *rela
   if (status == CELD_OK)
     remove_passing (s, arrows);
   for (size_t k = 0; k < s->graph.n_lines && status == CELD_OK; k++)
-    *n += arrows[k].n;
+    *n += is_long (s, k) ? arrows[k].n : 0;
   for (size_t k = 0; k < s->graph.n_lines && status == CELD_OK && *n > 1; k++)
     if (is_long (s, k))
       status = add_line (s, k, &arrows[k], crack, relations, problems);
