@@ -23,6 +23,7 @@
 #define THICK_START    1.4 /* largest ratio of the width near the tail to that in the middle: more is a head; chosen */
 #define SHORTEST_SHAFT 6   /* pixels; chosen */
 #define AXIS_ROUNDS    3   /* iterations in which the axis is turned towards the tip; chosen */
+#define BEYOND_BARBS   5   /* widths of the shaft from the tip, where no head is; chosen */
 
 /* The pixels of a stroke at a distance of `from` or more, in coordinates along an axis: s forwards, v sideways (left of
  * the axis is positive). */
@@ -283,6 +284,25 @@ view_beyond (const CeldArrowStroke *stroke, double w, double end)
   return (View) { last, direction (celd_stroke_centroid (stroke, end - back, end - 0.75 * back), last), end };
 }
 
+/* Do two lines of a loop meet at the farthest place from where a stroke was followed?  Then their paint just before it is
+ * on two sides. */
+static bool
+two_meet_at_end (const CeldArrowStroke *stroke, double w)
+{
+  double    to = celd_stroke_length (stroke) - 2 * w, from = to - fmax (1, w);
+  CeldPoint c = celd_stroke_centroid (stroke, from, to);
+
+  for (size_t i = 0; i < stroke->n && from > BEYOND_BARBS * w; i++)
+    {
+      double    d = stroke->distance[stroke->pixel[i]];
+      CeldPoint p = celd_stroke_point (stroke, stroke->pixel[i]);
+
+      if (d >= from && d <= to && hypot (p.x - c.x, p.y - c.y) > 1.2 * w + 2)
+        return true;
+    }
+  return false;
+}
+
 /* Follows the stroke from `tail`.  If it ends in a head, or with `dot` in a dot: its tail, and its tip or the dot's
  * centre. */
 static bool
@@ -311,10 +331,10 @@ read_from_tail (CeldArrowStroke *stroke, uint32_t tail, bool dot, CeldArrowEnds 
   tip   = foremost (stroke, &view, e.most_s);
   *ends = (CeldArrowEnds) { celd_stroke_centroid (stroke, 0, fmax (1, w)), dot ? view.origin : tip };
 
-  /* The tail must be farthest from the tip; else the stroke was followed from the middle of the shaft. */
+  /* The tail must be farthest from the tip; else the stroke was followed from the middle of the shaft, or of a loop. */
   tail = nearest_pixel (stroke, tip);
   last = celd_stroke_point (stroke, celd_stroke_follow (stroke, &tail, 1));
-  return hypot (last.x - ends->tail.x, last.y - ends->tail.y) < w + 2;
+  return hypot (last.x - ends->tail.x, last.y - ends->tail.y) < w + 2 && !two_meet_at_end (stroke, w);
 }
 
 bool

@@ -200,8 +200,8 @@ place_node (Heads *s, int node)
   return celd_joined_rest (lines, place, CELD_HEAD_REACH) <= MOST_REST;
 }
 
-/* Is a line long enough for what it is said to be, and is there no other paint along it?  The ends of a line without a
- * free end must be apart. */
+/* Is a line long enough for what it is said to be, without a corner unless it is two arrows, and is there no other paint
+ * along it?  The ends of a line without a free end must be apart. */
 static bool
 is_plausible (const Heads *s, size_t k)
 {
@@ -213,9 +213,10 @@ is_plausible (const Heads *s, size_t k)
 
   if (celd_stroke_line_length (line) < (met ? 2 * CELD_HEAD_REACH : CELD_LEAST_LINE) * lines->graph.width)
     return false;
-  if (s->marked[k] == BOTH && celd_stroke_line_corner (&lines->graph, k, &corner))
+  if (s->marked[k] != NEITHER && celd_stroke_line_corner (&lines->graph, k, &corner))
     for (int i = 0; i < 2; i++)
-      if (hypot (e[i].tip.x - corner.x, e[i].tip.y - corner.y) < CELD_LEAST_LINE * lines->graph.width)
+      if (s->marked[k] != BOTH ||
+          hypot (e[i].tip.x - corner.x, e[i].tip.y - corner.y) < CELD_LEAST_LINE * lines->graph.width)
         return false;
   return celd_joined_is_alone (lines, k, (size_t) (CELD_HEAD_REACH * lines->graph.width));
 }

@@ -112,6 +112,44 @@ in_a_net (void)
     }
 }
 
+/* Three places, with an arrow between each two: nothing begins in the middle of a line. */
+static void
+round_a_loop (void)
+{
+  uint32_t state = 23;
+
+  for (int i = 0; i < 120; i++)
+    {
+      double    turn = random_between (&state, 0, 6.28), w = random_between (&state, 4, 6);
+      CeldPaint paint = blank (SIZE, SIZE);
+      Point     place[3];
+      Arrow     a[3];
+      size_t    found = 0;
+      Answer    answer;
+
+      for (int k = 0; k < 3; k++)
+        {
+          double angle = turn + k * 2.0944 + random_between (&state, -0.2, 0.2), r = random_between (&state, 80, 110);
+
+          place[k] = (Point) { SIZE / 2. + r * cos (angle), SIZE / 2. + r * sin (angle) };
+        }
+      for (int k = 0; k < 3; k++)
+        {
+          Point  from = place[k == 1], to = place[k ? 2 : 1];
+          double length = hypot (to.x - from.x, to.y - from.y);
+
+          a[k] = through (to, atan2 (to.y - from.y, to.x - from.x), length, 1, w, CELD_ARROW_HEAD, i % 4 == 0);
+          draw_arrow (&paint, &a[k], GREEN);
+        }
+      answer = read_paint (&paint, CELD_ARROW_HEAD);
+      for (int k = 0; k < 3; k++)
+        found += is_read (&answer, &a[k], CELD_ARROW_HEAD);
+      CHECK (answer.relations.n == found);
+      forget (&answer);
+      free (paint.data);
+    }
+}
+
 /* All are blue, so that all crack. */
 static void
 cracks (void)
@@ -142,6 +180,7 @@ main (void)
   RUN (at_any_angles);
   RUN (bare_strokes);
   RUN (in_a_net);
+  RUN (round_a_loop);
   RUN (cracks);
   return DONE;
 }
