@@ -70,6 +70,25 @@ returned_step (const CeldHost *host, Results *r)
   return status;
 }
 
+/* Labels that all moved a row up, and what is noted of them. */
+static CeldStatus
+notes_step (const CeldHost *host, Results *r)
+{
+  CeldLabels     before = { W, H - 1, W, label_pixels.labels + W }, after = { W, H - 1, W, label_pixels.labels };
+  CeldPlane      ink = { W, H - 1, W, ink_pixels.plane };
+  CeldRegionNote note[9];
+  size_t         n = 0;
+  double         mean = 0;
+  CeldStatus     status = celd_note_regions (&ink, &before, &after, &ink, label_palette.n, 0, NULL, note, &n, &mean);
+
+  (void) host;
+  if (status == CELD_OK)
+    r->pixels->plane[0] = (float) mean;
+  for (size_t i = 0; status == CELD_OK && i < n; i++)
+    r->pixels->plane[i + 1] = (float) note[i].certainty;
+  return status;
+}
+
 /* The silhouette of all, found without labels. */
 static CeldStatus
 lattice_step (const CeldHost *host, Results *r)
@@ -310,6 +329,7 @@ const Step motion_steps[] = {
   { "propagate", propagate_step, NULL, true },
   { "blend of two keys", blend_step, NULL, true },
   { "labels that came back", returned_step, NULL, false },
+  { "notes of regions", notes_step, NULL, false },
   { "lattice", lattice_step, NULL, true },
   { "lattice of levels", levels_lattice_step, NULL, true },
   { "compose", compose_step, NULL, true },

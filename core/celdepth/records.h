@@ -100,6 +100,24 @@ CELD_API void celd_problems_paint (const CeldProblems *problems, CeldPaint *pain
 CELD_API void celd_problem_text (const CeldProblem *problem, const CeldPalette *palette, const CeldRelations *relations,
                                  CeldTranslate translate, char *text, size_t size);
 
+#define CELD_REGION_SURE 0.7 /* a region below this certainty is to be looked at; chosen on clips with ground truth */
+
+typedef enum
+{
+  CELD_REGION_UNSURE,
+  CELD_REGION_GONE, /* it has no pixel any more */
+  CELD_REGION_NEW   /* it had none before */
+} CeldRegionChange;
+
+/* What a person should know of a region that was carried to a frame. */
+typedef struct
+{
+  uint32_t         label;
+  CeldRegionChange change;
+  double           certainty; /* [0,1] */
+  int              x, y;      /* where to look: a pixel of it, of the frame before if it is gone; -1 if there is none */
+} CeldRegionNote;
+
 /* Relations that contradict each other: item[0..n-1] are indices into the relations, in the order of the cycle (the
  * farther region of each is the nearer region of the next, and that of the last the nearer region of the first). */
 typedef struct

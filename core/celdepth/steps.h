@@ -477,6 +477,16 @@ CELD_API CeldStatus celd_propagate (const CeldPlane *ink, const CeldLabels *sour
  * n. */
 CELD_API CeldStatus celd_rate_returned (const CeldLabels *before, const CeldLabels *after, const CeldLabels *back,
                                         size_t n, double *sure);
+
+/* Notes which regions of the frame `after` are unsure, vanish or appear beside the frame `before`: item[0] to
+ * item[*n_items - 1] in the order of labels, of which there are at most n.  `certainty` is that of celd_propagate, 0 on
+ * ink; sure[1] to sure[n] (may be NULL) are those of celd_rate_returned.  Regions smaller than 1 / 2000 of the page are
+ * left out unless they are not sure.  *mean gets the mean certainty of all regions, [0,1]; 0 if there are none.
+ * CELD_BAD_VALUE for labels beyond n. */
+CELD_API CeldStatus celd_note_regions (const CeldPlane *ink, const CeldLabels *before, const CeldLabels *after,
+                                       const CeldPlane *certainty, size_t n, uint32_t background, const double *sure,
+                                       CeldRegionNote *item, size_t *n_items, double *mean);
+
 /* Makes one picture of labels that were propagated to a frame from two keys, one on either side.  Where they differ a
  * connected area takes the label with the higher confidence, certainty times nearness; the nearer key's if both have
  * the same, the first one's if both are as near.  `certainty` gets that of the label, the higher one where both agree;

@@ -119,6 +119,9 @@ void celd_blend (uint8_t *rgba, const double colour[3], double opacity);
 CeldStatus celd_palette_measure (const CeldLabels *labels, const CeldPlane *ink, const CeldHost *host,
                                  CeldPalette *palette);
 
+/* Is a label larger than n? */
+bool celd_labels_beyond (const CeldLabels *labels, size_t n);
+
 /* Makes a copy; `copy` is overwritten. */
 CeldStatus celd_palette_copy (const CeldPalette *palette, CeldPalette *copy);
 

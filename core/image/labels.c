@@ -112,6 +112,16 @@ number_regions (const CeldComponent *component, size_t n, CeldPalette *palette, 
   return CELD_OK;
 }
 
+bool
+celd_labels_beyond (const CeldLabels *labels, size_t n)
+{
+  for (int y = 0; y < labels->height; y++)
+    for (int x = 0; x < labels->width; x++)
+      if (CELD_AT (labels, x, y) > n)
+        return true;
+  return false;
+}
+
 CeldStatus
 celd_palette_copy (const CeldPalette *palette, CeldPalette *copy)
 {

@@ -6,22 +6,12 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
-#include "base/base.h"
+#include "image/image.h"
 
 #include <math.h>
 
 /* Pixels of a label: in the frame before, in this one; and where labels came back, of both or of either. */
 typedef struct { size_t before, after, both, either; } Agreement;
-
-static bool
-has_labels_beyond (const CeldLabels *labels, size_t n)
-{
-  for (int y = 0; y < labels->height; y++)
-    for (int x = 0; x < labels->width; x++)
-      if (CELD_AT (labels, x, y) > n)
-        return true;
-  return false;
-}
 
 static void
 count_pixels (const CeldLabels *before, const CeldLabels *after, const CeldLabels *back, Agreement *agreement)
@@ -57,7 +47,7 @@ celd_rate_returned (const CeldLabels *before, const CeldLabels *after, const Cel
 
   if (!CELD_SAME_SIZE (before, after) || !CELD_SAME_SIZE (before, back))
     return CELD_BAD_SIZE;
-  if (has_labels_beyond (before, n) || has_labels_beyond (after, n) || has_labels_beyond (back, n))
+  if (celd_labels_beyond (before, n) || celd_labels_beyond (after, n) || celd_labels_beyond (back, n))
     return CELD_BAD_VALUE;
   agreement = celd_alloc0 (n + 1, sizeof *agreement);
   if (!agreement)

@@ -106,8 +106,7 @@ make (const CliMotion *motion, const CeldHost *host, Sides *sides, const CliFram
   state->certainty = MAX (kept[0].certainty, kept[1].certainty);
   if (good && motion->options->review)
     state->sure = sure_of_both (motion, sides, kept, &state->labels);
-  if (good)
-    cli_frame_take_notes (motion, &before, &state->labels, &state->pixel_certainty, state);
+  good = good && cli_frame_take_notes (motion, &before, &state->labels, &state->pixel_certainty, state);
   g_free (before.data);
   return good && cli_frame_write (motion, host, state);
 }

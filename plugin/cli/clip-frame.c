@@ -67,8 +67,7 @@ propagate (const CliMotion *motion, const CeldHost *host, size_t frame, char *fi
                                                   &next.pixel_certainty)) &&
                        (!motion->options->review || cli_frame_doubt (motion, host, state, &next));
 
-  if (good)
-    cli_frame_take_notes (motion, &state->labels, &next.labels, &next.pixel_certainty, &next);
+  good = good && cli_frame_take_notes (motion, &state->labels, &next.labels, &next.pixel_certainty, &next);
   cli_frame_clear (state);
   *state = next;
   return good;

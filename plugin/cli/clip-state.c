@@ -85,7 +85,7 @@ cli_frame_write_state (const CliMotion *motion, const CliFrameState *state)
   json_builder_begin_array (json);
   for (guint i = 0; i < state->notes->len; i++)
     {
-      const CliRegionNote *note = &g_array_index (state->notes, CliRegionNote, i);
+      const CeldRegionNote *note = &g_array_index (state->notes, CeldRegionNote, i);
 
       json_builder_begin_array (json);
       json_builder_add_int_value (json, note->label);
@@ -115,7 +115,7 @@ static void
 read_note (const CliMotion *motion, JsonNode *node, GArray *notes)
 {
   JsonArray    *values = JSON_NODE_HOLDS_ARRAY (node) ? json_node_get_array (node) : NULL;
-  CliRegionNote note = { 0 };
+  CeldRegionNote note = { 0 };
   const char   *change;
 
   if (!values || json_array_get_length (values) != 5)
@@ -126,7 +126,7 @@ read_note (const CliMotion *motion, JsonNode *node, GArray *notes)
   change = json_array_get_string_element (values, 1);
   for (size_t c = 0; change && c < G_N_ELEMENTS (changes); c++)
     if (!strcmp (change, changes[c]))
-      note.change = (CliRegionChange) c;
+      note.change = (CeldRegionChange) c;
   note.label     = (uint32_t) CLAMP (json_array_get_int_element (values, 0), 1, (gint64) motion->palette.n);
   note.certainty = json_array_get_double_element (values, 2);
   note.x         = (int) CLAMP (json_array_get_int_element (values, 3), -1, motion->width - 1);

@@ -43,26 +43,27 @@ plan_motion (Between *b)
                                 .bare = true };
 }
 
-/* Says which regions were not found in the second drawing, or are unsure there. */
-static void
+/* Says which regions were not found in the second drawing, or are unsure there; false with a message. */
+static bool
 say_unsure (const Between *b, const CeldPlane *certainty)
 {
   CliFrameState state = { .ink = b->ink[1], .certainty = 1, .notes = cli_notes_new () };
+  bool          good = cli_frame_take_notes (&b->motion, &b->labels[0], &b->labels[1], certainty, &state);
 
-  cli_frame_take_notes (&b->motion, &b->labels[0], &b->labels[1], certainty, &state);
   for (guint i = 0; i < state.notes->len; i++)
     {
-      const CliRegionNote *note = &g_array_index (state.notes, CliRegionNote, i);
+      const CeldRegionNote *note = &g_array_index (state.notes, CeldRegionNote, i);
       const uint8_t       *c = b->motion.palette.item[note->label - 1].colour;
 
       if (note->label == b->motion.background)
         continue;
       cli_say ("Region #%02x%02x%02x %s (%d, %d) in \"%s\". If frames are wrong, give --scribbles-b.", c[0], c[1], c[2],
-               note->change == CLI_REGION_GONE ? "was not found; it was at" : "is unsure round", note->x, note->y,
+               note->change == CELD_REGION_GONE ? "was not found; it was at" : "is unsure round", note->x, note->y,
                b->options->target);
     }
   state.ink = (CeldPlane) { 0 }; /* borrowed */
   cli_frame_clear (&state);
+  return good;
 }
 
 /* Propagates the regions of the first drawing to the second one. */
@@ -80,7 +81,7 @@ carry_labels (Between *b)
          cli_run_finish (&b->run, cli_frame_carry (motion, &b->run.host, &b->ink[0], &b->labels[0], &b->ink[1],
                                                    &b->labels[1], &certainty));
   if (good && !b->options->quiet)
-    say_unsure (b, &certainty);
+    good = say_unsure (b, &certainty);
   g_free (certainty.data);
   return good;
 }

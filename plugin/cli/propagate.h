@@ -48,10 +48,6 @@ void cli_keys_clear (CliMotion *motion);
 
 /* ------------------------------------------------------------------ clip-frame.c */
 
-/* What a person should know of a region of a frame. */
-typedef enum { CLI_REGION_UNSURE, CLI_REGION_GONE, CLI_REGION_NEW } CliRegionChange;
-typedef struct { uint32_t label; CliRegionChange change; double certainty; int x, y; } CliRegionNote;
-
 /* A frame, or a side of one between two keys: what one of these says of it. */
 typedef struct
 {
@@ -61,7 +57,7 @@ typedef struct
   CeldLabels    labels;
   CeldPlane     pixel_certainty; /* of celd_propagate; none if the frame was read */
   double        certainty;       /* of this frame, or of an earlier one of the chain if that is less; 1 for a key */
-  GArray       *notes;           /* CliRegionNote */
+  GArray       *notes;           /* CeldRegionNote */
   double       *sure;            /* of each label, the least since the key, for a review; may be NULL */
   char         *fingerprint;
 } CliFrameState;
@@ -90,8 +86,8 @@ bool cli_frame_blend (const CliMotion *motion, const CeldHost *host, size_t fram
 
 GArray *cli_notes_new (void);
 /* Notes what of the labels is unsure, vanishes or appears, beside those before, and lowers the certainty.  The state
- * has the frame's ink. */
-void cli_frame_take_notes (const CliMotion *motion, const CeldLabels *before, const CeldLabels *labels,
+ * has the frame's ink.  False with a message. */
+bool cli_frame_take_notes (const CliMotion *motion, const CeldLabels *before, const CeldLabels *labels,
                            const CeldPlane *certainty, CliFrameState *state);
 
 /* ------------------------------------------------------------------ clip-state.c */
@@ -112,8 +108,6 @@ bool  cli_frame_read_certainty (const CliMotion *motion, size_t frame, const Cli
 bool  cli_frame_write_certainty (const CliMotion *motion, const CliFrameState *state);
 
 /* ------------------------------------------------------------------ clip-doubt.c */
-
-#define CLI_REGION_SURE 0.7 /* a region below this certainty is to be looked at; chosen on clips with ground truth */
 
 /* Finds how sure each region of a frame is that was carried from the one before. */
 bool cli_frame_doubt (const CliMotion *motion, const CeldHost *host, const CliFrameState *before, CliFrameState *next);

@@ -15,10 +15,10 @@
 /* ------------------------------------------------------------------ JSON */
 
 static void
-add_note (JsonBuilder *json, const CliMotion *motion, const CliRegionNote *note)
+add_note (JsonBuilder *json, const CliMotion *motion, const CeldRegionNote *note)
 {
   static const char *const changes[] = {
-    [CLI_REGION_UNSURE] = "unsure", [CLI_REGION_GONE] = "gone", [CLI_REGION_NEW] = "new"
+    [CELD_REGION_UNSURE] = "unsure", [CELD_REGION_GONE] = "gone", [CELD_REGION_NEW] = "new"
   };
   const uint8_t *colour = motion->palette.item[note->label - 1].colour;
   char          *text = g_strdup_printf ("#%02x%02x%02x", colour[0], colour[1], colour[2]);
@@ -48,7 +48,7 @@ static bool
 wants_review (const CliFrameState *state)
 {
   for (guint i = 0; i < state->notes->len; i++)
-    if (g_array_index (state->notes, CliRegionNote, i).certainty < CLI_REGION_SURE)
+    if (g_array_index (state->notes, CeldRegionNote, i).certainty < CELD_REGION_SURE)
       return true;
   return state->certainty < SURE;
 }
@@ -66,7 +66,7 @@ add_frame (JsonBuilder *json, const CliMotion *motion, const CliFrameState *stat
   json_builder_set_member_name (json, "regions");
   json_builder_begin_array (json);
   for (guint i = 0; i < state->notes->len; i++)
-    add_note (json, motion, &g_array_index (state->notes, CliRegionNote, i));
+    add_note (json, motion, &g_array_index (state->notes, CeldRegionNote, i));
   json_builder_end_array (json);
   json_builder_end_object (json);
 }
@@ -114,7 +114,7 @@ paint_frame (const CliMotion *motion, const CliFrameState *state, CeldPaint *pai
     }
   for (guint i = 0; i < state->notes->len; i++)
     {
-      const CliRegionNote *note = &g_array_index (state->notes, CliRegionNote, i);
+      const CeldRegionNote *note = &g_array_index (state->notes, CeldRegionNote, i);
 
       if (note->x >= 0)
         problems.item[problems.n++] = (CeldProblem) { .x = note->x, .y = note->y };
