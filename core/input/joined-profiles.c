@@ -31,26 +31,47 @@ is_apart (const CeldJoinedLines *s, const LinePart *part, CeldPoint p)
   return true;
 }
 
-/* Appends the paint round a point of a part, as far as it is wide there. */
-static CeldStatus
-add_paint (CeldJoinedLines *s, const LinePart *part, CeldPoint c, CeldCrossingStrokes *paint, size_t *n)
+/* Marks the paint round a point of a part, as far as it is wide there. */
+static void
+mark_paint (CeldJoinedLines *s, const LinePart *part, CeldPoint c)
 {
-  double     r = sqrt (s->mask.squared[celd_joined_pixel (s, c)]) + 1;
-  size_t     row = (size_t) s->stroke->width + 2;
-  CeldStatus status = CELD_OK;
+  double r = sqrt (s->mask.squared[celd_joined_pixel (s, c)]) + 1;
 
   for (int y = (int) fmax (0, c.y - r); y <= c.y + r && y < s->mask.height; y++)
-    for (int x = (int) fmax (0, c.x - r); x <= c.x + r && x < s->mask.width && status == CELD_OK; x++)
+    for (int x = (int) fmax (0, c.x - r); x <= c.x + r && x < s->mask.width; x++)
       {
         CeldPoint p = { x + 0.5, y + 0.5 };
         size_t    i = celd_joined_pixel (s, p);
 
-        if (s->explained[i] || !s->mask.painted[i] || distance (c, p) > r || !is_apart (s, part, p))
-          continue;
-        s->explained[i] = 1;
-        status = celd_append (paint->pixel, *n, paint->pixel_capacity,
-                              (uint32_t) (((size_t) (y + s->mask.top) + 1) * row + (size_t) (x + s->mask.left) + 1));
+        if (s->mask.painted[i] && distance (c, p) <= r && is_apart (s, part, p))
+          s->explained[i] = 1;
       }
+}
+
+/* Collects the marked paint that is connected with a pixel of the mask: circles also reach over narrow gaps. */
+static CeldStatus
+collect_paint (CeldJoinedLines *s, size_t start, CeldCrossingStrokes *paint, size_t *n)
+{
+  size_t     width = (size_t) s->mask.width, row = (size_t) s->stroke->width + 2;
+  CeldStatus status = CELD_OK;
+
+  if (s->explained[start])
+    status = celd_append (paint->pixel, *n, paint->pixel_capacity, (uint32_t) start);
+  s->explained[start] = 0;
+  for (size_t done = 0; done < *n && status == CELD_OK; done++)
+    {
+      size_t p = paint->pixel[done], beside[4] = { p - width, p + 1, p + width, p - 1 }; /* no paint is on the border */
+
+      for (int i = 0; i < 4 && status == CELD_OK; i++)
+        if (s->explained[beside[i]])
+          {
+            s->explained[beside[i]] = 0;
+            status = celd_append (paint->pixel, *n, paint->pixel_capacity, (uint32_t) beside[i]);
+          }
+    }
+  for (size_t i = 0; i < *n; i++)
+    paint->pixel[i] = (uint32_t) ((paint->pixel[i] / width + (size_t) s->mask.top + 1) * row +
+                                  paint->pixel[i] % width + (size_t) s->mask.left + 1);
   return status;
 }
 
@@ -62,13 +83,14 @@ read_part (CeldJoinedLines *s, const LinePart *part, const CeldArrowLayer *layer
   CeldArrowStroke       stroke = *s->stroke;
   CeldCrossingStrokes   paint = { 0 };
   CeldArrowEnds         ends;
-  CeldStatus            status = CELD_OK;
+  CeldStatus            status;
 
   *tail    = -1;
   stroke.n = 0;
   memset (s->explained, 0, (size_t) s->mask.width * (size_t) s->mask.height);
-  for (size_t i = part->from; i <= part->to && status == CELD_OK; i++)
-    status = add_paint (s, part, line->at[i], &paint, &stroke.n);
+  for (size_t i = part->from; i <= part->to; i++)
+    mark_paint (s, part, line->at[i]);
+  status = collect_paint (s, celd_joined_pixel (s, line->at[(part->from + part->to) / 2]), &paint, &stroke.n);
   stroke.pixel = paint.pixel;
   if (status == CELD_OK && stroke.n >= CELD_LEAST_STROKE && celd_arrow_profile (&stroke, layer, s->style, &ends))
     {
