@@ -36,12 +36,12 @@ shared_arrow (Sharing sharing, int k, double angle, double length, double width,
 
 /* Draws some that share the middle, in styles, widths and angles at random; at least so many are read, and no other. */
 static inline void
-read_shared (Sharing sharing, int arrows, const uint8_t colours[4][3], double least)
+read_shared (Sharing sharing, int arrows, int pictures, const uint8_t colours[4][3], double least)
 {
   uint32_t state = 5 + (uint32_t) sharing;
   int      right = 0, all = 0;
 
-  for (int i = 0; i < 120; i++)
+  for (int i = 0; i < pictures; i++)
     {
       CeldArrowStyle style = STYLES[i % 4];
       double         start = random_between (&state, 0, 6.28), w = random_between (&state, 3, 7);
@@ -75,12 +75,12 @@ read_shared (Sharing sharing, int arrows, const uint8_t colours[4][3], double le
 
 /* Four that begin or end in the middle, half a radian apart or more: opposite ones may look like one stroke. */
 static inline void
-read_at_any_angles (const uint8_t colours[4][3], double least)
+read_at_any_angles (int pictures, const uint8_t colours[4][3], double least)
 {
   uint32_t state = 3;
   int      right = 0, all = 0;
 
-  for (int i = 0; i < 400; i++)
+  for (int i = 0; i < pictures; i++)
     {
       CeldArrowStyle style = STYLES[i % 4];
       double         w = random_between (&state, 3, 7);

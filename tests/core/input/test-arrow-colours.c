@@ -7,37 +7,37 @@
 static void
 several_that_leave (void)
 {
-  read_shared (FAN_OUT, 3, COLOURS, 0.5);
+  read_shared (FAN_OUT, 3, 120, COLOURS, 0.5);
 }
 
 static void
 several_that_arrive (void)
 {
-  read_shared (FAN_IN, 3, COLOURS, 0.5);
+  read_shared (FAN_IN, 3, 120, COLOURS, 0.5);
 }
 
 static void
 head_to_tail (void)
 {
-  read_shared (CHAIN, 2, COLOURS, 0.65);
+  read_shared (CHAIN, 2, 120, COLOURS, 0.65);
 }
 
 static void
 both_ways (void)
 {
-  read_shared (STAR, 4, COLOURS, 0.72);
+  read_shared (STAR, 4, 120, COLOURS, 0.72);
 }
 
 static void
 side_by_side (void)
 {
-  read_shared (OVERLAP, 2, COLOURS, 0);
+  read_shared (OVERLAP, 2, 120, COLOURS, 0);
 }
 
 static void
 at_any_angles (void)
 {
-  read_at_any_angles (COLOURS, 0.75);
+  read_at_any_angles (400, COLOURS, 0.75);
 }
 
 /* The line of a head lies on the tail of an arrow that leaves the same place. */

@@ -9,43 +9,43 @@ static const uint8_t ONE[4][3] = { { 20, 160, 60 }, { 20, 160, 60 }, { 20, 160, 
 static void
 two_that_leave (void)
 {
-  read_shared (FAN_OUT, 2, ONE, 0.6);
+  read_shared (FAN_OUT, 2, 48, ONE, 0.6);
 }
 
 static void
 three_that_leave (void)
 {
-  read_shared (FAN_OUT, 3, ONE, 0.6);
+  read_shared (FAN_OUT, 3, 48, ONE, 0.6);
 }
 
 static void
 two_that_arrive (void)
 {
-  read_shared (FAN_IN, 2, ONE, 0.6);
+  read_shared (FAN_IN, 2, 120, ONE, 0.6);
 }
 
 static void
 three_that_arrive (void)
 {
-  read_shared (FAN_IN, 3, ONE, 0.6);
+  read_shared (FAN_IN, 3, 48, ONE, 0.6);
 }
 
 static void
 head_to_tail (void)
 {
-  read_shared (CHAIN, 2, ONE, 0.6);
+  read_shared (CHAIN, 2, 48, ONE, 0.6);
 }
 
 static void
 side_by_side (void)
 {
-  read_shared (OVERLAP, 2, ONE, 0);
+  read_shared (OVERLAP, 2, 48, ONE, 0);
 }
 
 static void
 at_any_angles (void)
 {
-  read_at_any_angles (ONE, 0);
+  read_at_any_angles (80, ONE, 0);
 }
 
 /* Strokes that meet and have neither heads nor dots, and are as opaque and wide everywhere, are not several arrows.  Three
@@ -55,7 +55,7 @@ bare_strokes (void)
 {
   uint32_t state = 7;
 
-  for (int i = 0; i < 200; i++)
+  for (int i = 0; i < 80; i++)
     {
       CeldPaint paint = blank (SIZE, SIZE);
       double    w = random_between (&state, 3, 8);
@@ -82,7 +82,7 @@ in_a_net (void)
 {
   uint32_t state = 17;
 
-  for (int i = 0; i < 80; i++)
+  for (int i = 0; i < 40; i++)
     {
       CeldPaint      paint = blank (SIZE, SIZE);
       CeldArrowStyle style = STYLES[i % 4];
@@ -118,7 +118,7 @@ round_a_loop (void)
 {
   uint32_t state = 23;
 
-  for (int i = 0; i < 120; i++)
+  for (int i = 0; i < 60; i++)
     {
       double    turn = random_between (&state, 0, 6.28), w = random_between (&state, 4, 6);
       CeldPaint paint = blank (SIZE, SIZE);
