@@ -278,7 +278,7 @@ typedef struct
 {
   int             width, height; /* of the picture */
   float          *distance;      /* such a plane: geodesic distance from the start in pixels; infinite elsewhere */
-  const uint32_t *pixel;         /* of the stroke, in reading order */
+  const uint32_t *pixel;         /* of the stroke; another order than that of reading only takes more time */
   size_t          n;
   CeldStrokeSums *sums;          /* sums[i]: pixels with distance < i; room for 3 n / 2 + 4 */
   size_t          n_sums;
@@ -375,7 +375,8 @@ void celd_thin_neighbours (const uint8_t *on, size_t width, size_t pixel, bool a
 
 /* ------------------------------------------------------------------ stroke-trace.c, stroke-lines.c, stroke-graph.c */
 
-/* A line of thinned paint between two nodes, pixel by pixel, in coordinates of its mask. */
+/* A line of thinned paint between two nodes, in coordinates of its mask.  Its points are at most 1.5 pixels apart, so
+ * that a number of points is about a length. */
 typedef struct { CeldPoint *at; size_t n, capacity; int node[2]; } CeldStrokeLine;
 
 /* Lines that should meet in a point: the sums of their normal equations, from which it follows by least squares. */
@@ -392,11 +393,16 @@ typedef struct
   double          width; /* of the lines, in pixels, at least 1 */
 } CeldStrokeGraph;
 
-/* All lines of the thinned paint of a mask; or the long ones, `even`: of paint that is as wide everywhere, so that
- * they are divided where it is wider.  To be cleared by the caller.  Closed lines that meet no other one are left out. */
+/* All lines of the thinned paint of a mask, but for closed ones that meet no other.  To be cleared by the caller. */
 CeldStatus celd_stroke_trace (const CeldStrokeMask *mask, CeldStrokeGraph *graph);
-CeldStatus celd_stroke_graph_new (const CeldStrokeMask *mask, bool even, CeldStrokeGraph *graph);
+
+/* The long ones of these lines; with `divided`, they end where the paint is much wider than elsewhere, as it is at heads
+ * and dots.  None if there are more than 2000 lines, which are no arrows.  To be cleared by the caller. */
+CeldStatus celd_stroke_graph_new (const CeldStrokeMask *mask, bool divided, CeldStrokeGraph *graph);
 void       celd_stroke_graph_clear (CeldStrokeGraph *graph);
+
+/* Leads a line on straight to a point. */
+CeldStatus celd_stroke_line_append (CeldStrokeLine *line, CeldPoint p);
 
 /* Joins the two lines of a node, if it has two, into one. */
 CeldStatus celd_stroke_graph_join (CeldStrokeGraph *graph, int node);
@@ -413,7 +419,7 @@ CeldPoint celd_line_sums_point (const CeldLineSums *sums, CeldPoint prior);
 
 /* ------------------------------------------------------------------ joined-arrows.c */
 
-/* Appends the arrows of connected paint of one colour whose ends meet, and a problem for each line that is unclear.
+/* Appends the arrows of connected paint of one colour whose ends meet, and a problem for each long line that is unclear.
  * *any: there are such arrows, at least two; else nothing is appended. */
 CeldStatus celd_joined_arrows_read (CeldArrowStroke *stroke, const CeldArrowLayer *layer, CeldArrowStyle style,
                                     CeldRelations *relations, CeldProblems *problems, bool *any);

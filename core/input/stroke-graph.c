@@ -23,6 +23,7 @@
 #define LOOP          14   /* length of a line that returns to its node and is no stroke */
 #define WIDE          1.4  /* width of a place where a line is divided, ... */
 #define WIDE_MARGIN   4    /* ... at least so far from its ends */
+#define MOST_TRACED   2000 /* lines before branches are removed: more are a drawing, or noise */
 
 typedef struct { const CeldStrokeMask *mask; CeldStrokeGraph graph; } Build;
 
@@ -161,22 +162,21 @@ celd_stroke_graph_join (CeldStrokeGraph *g, int node)
     reverse (&g->line[with[0]]);
   if (g->line[with[1]].node[0] != node)
     reverse (&g->line[with[1]]);
-  for (size_t i = 1; i < g->line[with[1]].n && status == CELD_OK; i++)
-    status = celd_append (g->line[with[0]].at, g->line[with[0]].n, g->line[with[0]].capacity, g->line[with[1]].at[i]);
+  for (size_t i = 0; i < g->line[with[1]].n && status == CELD_OK; i++)
+    status = celd_stroke_line_append (&g->line[with[0]], g->line[with[1]].at[i]);
   g->line[with[0]].node[1] = g->line[with[1]].node[1];
   remove_line (g, with[1]);
   return status;
 }
 
-/* Joins the two lines of each node that has no more and, unless `all`, had no longer branches: those may be of a
- * head. */
+/* Joins the two lines of each node that has no more and had no longer branches: those may be of a head. */
 static CeldStatus
-join_lines (CeldStrokeGraph *g, bool all)
+join_lines (CeldStrokeGraph *g)
 {
   CeldStatus status = CELD_OK;
 
   for (size_t node = 0; node < g->n_nodes && status == CELD_OK; node++)
-    if (all || !g->node[node].branched)
+    if (!g->node[node].branched)
       status = celd_stroke_graph_join (g, (int) node);
   return status;
 }
@@ -264,23 +264,25 @@ divide_where_wide (Build *b)
 }
 
 CeldStatus
-celd_stroke_graph_new (const CeldStrokeMask *mask, bool even, CeldStrokeGraph *graph)
+celd_stroke_graph_new (const CeldStrokeMask *mask, bool divided, CeldStrokeGraph *graph)
 {
   Build      b = { .mask = mask };
   CeldStatus status = celd_stroke_trace (mask, &b.graph);
 
+  if (status == CELD_OK && b.graph.n_lines > MOST_TRACED)
+    celd_stroke_graph_clear (&b.graph);
   if (status == CELD_OK)
-    status = join_lines (&b.graph, false);
+    status = join_lines (&b.graph);
   if (status == CELD_OK)
     {
       merge_nodes (&b.graph);
       status = remove_branches (&b);
     }
   if (status == CELD_OK)
-    status = join_lines (&b.graph, false);
+    status = join_lines (&b.graph);
   if (status == CELD_OK)
     merge_nodes (&b.graph);
-  if (status == CELD_OK && even)
+  if (status == CELD_OK && divided)
     status = divide_where_wide (&b);
   if (status != CELD_OK)
     celd_stroke_graph_clear (&b.graph);

@@ -1,7 +1,8 @@
-/* Lines of paint: their length, their corner, and the point where several of them meet.
+/* Lines of paint: their points, length and corner, and the point where several of them meet.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
+#include "base/base.h"
 #include "input/input.h"
 
 #include <math.h>
@@ -12,6 +13,23 @@
 #define TURN_MARGIN 6    /* ... this far from the ends of the line, which may belong to heads */
 #define CORNER_OFF  1.5  /* between a corner of the thinned paint and where its lines meet */
 #define PRIOR       0.05 /* weight of a given point beside those of lines that should meet */
+#define MOST_STEP   1.5  /* pixels between points of a line that follow each other: more than a diagonal */
+
+CeldStatus
+celd_stroke_line_append (CeldStrokeLine *line, CeldPoint p)
+{
+  CeldPoint  last = line->n ? line->at[line->n - 1] : p;
+  int        n = line->n ? (int) ceil (hypot (p.x - last.x, p.y - last.y) / MOST_STEP) : 1;
+  CeldStatus status = CELD_OK;
+
+  for (int i = 1; i <= n && status == CELD_OK; i++)
+    {
+      CeldPoint between = { last.x + (p.x - last.x) * i / n, last.y + (p.y - last.y) * i / n };
+
+      status = celd_append (line->at, line->n, line->capacity, between);
+    }
+  return status;
+}
 
 double
 celd_stroke_line_length (const CeldStrokeLine *line)

@@ -72,7 +72,7 @@ follow (Trace *b, size_t from, size_t next)
 {
   size_t         width = (size_t) b->mask->width;
   CeldStrokeLine line = { .node = { (int) b->node.data[from] - 1, -1 } };
-  CeldStatus     status = celd_append (line.at, line.n, line.capacity, b->graph.node[line.node[0]].at);
+  CeldStatus     status = celd_stroke_line_append (&line, b->graph.node[line.node[0]].at);
 
   while (status == CELD_OK && !b->node.data[next])
     {
@@ -81,7 +81,7 @@ follow (Trace *b, size_t from, size_t next)
       size_t on = next;
 
       b->on[next] = 2;
-      status = celd_append (line.at, line.n, line.capacity, point_of (b, next));
+      status = celd_stroke_line_append (&line, point_of (b, next));
       for (int i = 7; i >= 0; i--)
         if (b->on[around[i]] && around[i] != from)
           on = around[i];
@@ -91,7 +91,7 @@ follow (Trace *b, size_t from, size_t next)
   if (status == CELD_OK)
     {
       line.node[1] = (int) b->node.data[next] - 1;
-      status = celd_append (line.at, line.n, line.capacity, b->graph.node[line.node[1]].at);
+      status = celd_stroke_line_append (&line, b->graph.node[line.node[1]].at);
     }
   if (status == CELD_OK)
     status = celd_append (b->graph.line, b->graph.n_lines, b->graph.capacity, line);

@@ -220,6 +220,49 @@ heads_and_corners (void)
     }
 }
 
+/* Also where rough edges and merged nodes were left out of them. */
+static void
+lines_have_no_gaps (void)
+{
+  uint32_t state = 11;
+
+  for (int i = 0; i < 60; i++)
+    {
+      Canvas          c = { { 0 } };
+      CeldStrokeGraph g;
+      int             turn = (int) check_random (&state, 360), w = 4 + (int) check_random (&state, 3);
+
+      paint_line (&c, round_middle (turn, 85), round_middle (turn + 180, 85), w);
+      for (int k = -2; k <= 2; k++) /* short spurs, on both sides, some widths apart */
+        {
+          CeldPoint from = round_middle (turn, (2 + 0.2 * check_random (&state, 10)) * w * k);
+          double    angle = (turn + (k % 2 ? 90 : 270)) * 0.0174532925, r = w * (1.2 + 0.1 * check_random (&state, 12));
+
+          paint_line (&c, from, at (from.x + r * cos (angle), from.y + r * sin (angle)), w - 2);
+        }
+      g = graph_of (&c);
+      for (size_t k = 0; k < g.n_lines; k++)
+        for (size_t p = 1; p < g.line[k].n; p++)
+          CHECK (hypot (g.line[k].at[p].x - g.line[k].at[p - 1].x, g.line[k].at[p].y - g.line[k].at[p - 1].y) <= 1.51);
+      celd_stroke_graph_clear (&g);
+    }
+}
+
+/* Thousands of lines are a drawing or noise: none is followed. */
+static void
+too_many (void)
+{
+  Canvas          c = { { 0 } };
+  CeldStrokeGraph g;
+
+  for (int y = 1; y < SIZE - 1; y++)
+    for (int x = 1; x < SIZE - 1; x++)
+      c.on[y * SIZE + x] = y % 4 == 1 || x % 4 == 1;
+  g = graph_of (&c);
+  CHECK (g.n_lines == 0);
+  celd_stroke_graph_clear (&g);
+}
+
 static void
 nothing_long (void)
 {
@@ -240,6 +283,8 @@ main (void)
   RUN (stars_have_one_node);
   RUN (triangles_have_three);
   RUN (heads_and_corners);
+  RUN (lines_have_no_gaps);
+  RUN (too_many);
   RUN (nothing_long);
   return DONE;
 }
