@@ -141,6 +141,15 @@ has_hook (const CeldJoinedLines *s, size_t end)
   return false;
 }
 
+/* Does the paint of a tip reach the frame of the picture?  Then a head or dot may lie beyond it. */
+static bool
+is_at_frame (const CeldJoinedLines *s, CeldPoint tip)
+{
+  double x = tip.x + s->mask.left, y = tip.y + s->mask.top, reach = s->graph.width + 1;
+
+  return fmin (x, y) < reach || x > s->stroke->width - reach || y > s->stroke->height - reach;
+}
+
 CeldStatus
 celd_joined_read_free_end (CeldJoinedLines *s, size_t end)
 {
@@ -158,13 +167,17 @@ celd_joined_read_free_end (CeldJoinedLines *s, size_t end)
         status = read_to_cut (s, end, celd_joined_point (s, end, fmin (steps, 0.5 * n)), &found, &e->tip);
     }
   if (found)
-    e->mark = CELD_END_MARKED;
-  else
-    celd_joined_find_mark (s, &tried, true);
-  if (!found && s->style == CELD_ARROW_DOT)
+    {
+      e->mark = CELD_END_MARKED;
+      return status;
+    }
+  celd_joined_find_mark (s, &tried, true);
+  if (s->style == CELD_ARROW_DOT)
     *e = tried;
-  else if (!found)
+  else
     e->mark = tried.mark == CELD_END_BARE && !has_hook (s, end) && !s->graph.node[celd_joined_node (s, end)].branched
                 ? CELD_END_BARE : CELD_END_UNKNOWN;
+  if (e->mark == CELD_END_BARE && is_at_frame (s, e->tip))
+    e->mark = CELD_END_UNKNOWN;
   return status;
 }

@@ -150,6 +150,40 @@ round_a_loop (void)
     }
 }
 
+/* Two that meet near the frame, which cuts off the end of the second: it is never read the other way. */
+static void
+cut_by_the_frame (void)
+{
+  uint32_t state = 29;
+
+  for (int i = 0; i < 96; i++)
+    {
+      CeldArrowStyle style = STYLES[i % 2];
+      double         w = random_between (&state, 3, 6), angle = random_between (&state, -0.5, 0.5);
+      double         length = random_between (&state, 12, 15) * w, turn = random_between (&state, 0.7, 2);
+      CeldPaint      paint = blank (SIZE, SIZE);
+      Point          place = { SIZE - length * random_between (&state, 0.5, 0.95), SIZE / 2. };
+      Arrow          a = through (place, angle + (i % 4 < 2 ? turn : -turn), length, i % 8 < 4, w, style, i % 16 < 8);
+      Arrow          b = through (place, angle, length, 0, w, style, i % 32 < 16);
+      Answer         answer;
+
+      draw_arrow (&paint, &a, GREEN);
+      draw_arrow (&paint, &b, GREEN);
+      answer = read_paint (&paint, style);
+      for (size_t k = 0; k < answer.relations.n; k++)
+        {
+          const CeldRelation *r = &answer.relations.item[k];
+          double              near = fmin (hypot (r->nearer.x - place.x, r->nearer.y - place.y),
+                                           hypot (r->farther.x - place.x, r->farther.y - place.y));
+
+          if (fmax (r->nearer.x, r->farther.x) > SIZE - w - 2 && near < 3 * w) /* the second one */
+            CHECK ((r->farther.x > r->nearer.x) == (style == CELD_ARROW_HEAD));
+        }
+      forget (&answer);
+      free (paint.data);
+    }
+}
+
 /* All are blue, so that all crack. */
 static void
 cracks (void)
@@ -181,6 +215,7 @@ main (void)
   RUN (bare_strokes);
   RUN (in_a_net);
   RUN (round_a_loop);
+  RUN (cut_by_the_frame);
   RUN (cracks);
   return DONE;
 }
