@@ -284,8 +284,8 @@ view_beyond (const CeldArrowStroke *stroke, double w, double end)
   return (View) { last, direction (celd_stroke_centroid (stroke, end - back, end - 0.75 * back), last), end };
 }
 
-/* Do two lines of a loop meet at the farthest place from where a stroke was followed?  Then their paint just before it is
- * on two sides. */
+/* Do two lines of a loop meet at the farthest place from where a stroke was followed?  Then their paint just before it
+ * is on two sides. */
 static bool
 two_meet_at_end (const CeldArrowStroke *stroke, double w)
 {

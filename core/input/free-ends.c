@@ -1,7 +1,7 @@
 /* Does a free end of joined lines have a head or dot?
  *
- * The paint from the end to a cut through its line is a stroke of its own, which is read as any other (arrowhead.c).  Cuts
- * at several distances are tried, because a head may be long and the line bend behind it.
+ * The paint from the end to a cut through its line is a stroke of its own, which is read as any other (arrowhead.c).
+ * Cuts at several distances are tried, because a head may be long and the line bend behind it.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -15,72 +15,19 @@
 #define HOOK_REACH 2 /* ... measured so far before and behind it, ... */
 #define HOOK_TO    7 /* ... no farther from the end */
 
-/* Connected paint up to a cut; pixels of the mask. */
-typedef struct { uint32_t *pixel; size_t n, capacity; } Piece;
-
-/* Fills `piece` from a pixel on, up to a disc round a cut, which is as large as the line is wide. */
+/* The paint between a free end and a cut as a stroke of its own, to be released by the caller.  The cut is a disc as
+ * wide as the line. */
 static CeldStatus
-fill_piece (const CeldJoinedLines *s, size_t start, CeldPoint cut, Piece *piece)
+take_to_cut (const CeldJoinedLines *s, size_t end, CeldPoint cut, CeldJoinedPiece *piece)
 {
-  size_t     width = (size_t) s->mask.width;
-  uint8_t   *seen = celd_alloc0 (width * (size_t) s->mask.height, 1);
-  CeldStatus status = seen ? celd_append (piece->pixel, piece->n, piece->capacity, (uint32_t) start) : CELD_NO_MEMORY;
+  for (int y = 0; y < s->mask.height; y++)
+    for (int x = 0; x < s->mask.width; x++)
+      {
+        size_t p = (size_t) y * (size_t) s->mask.width + (size_t) x;
 
-  if (seen)
-    seen[start] = 1;
-  for (size_t done = 0; status == CELD_OK && done < piece->n; done++)
-    {
-      size_t p = piece->pixel[done], beside[4] = { p - width, p + 1, p + width, p - 1 };
-
-      for (int i = 0; i < 4 && status == CELD_OK; i++)
-        {
-          double x = (double) (beside[i] % width) + 0.5, y = (double) (beside[i] / width) + 0.5;
-
-          if (seen[beside[i]] || !s->mask.painted[beside[i]] || hypot (x - cut.x, y - cut.y) < s->graph.width + 1)
-            continue;
-          seen[beside[i]] = 1;
-          status = celd_append (piece->pixel, piece->n, piece->capacity, (uint32_t) beside[i]);
-        }
-    }
-  celd_free (seen);
-  return status;
-}
-
-/* The paint between a free end and a cut as a stroke of its own, to be released by the caller. */
-static CeldStatus
-take_piece (const CeldJoinedLines *s, size_t end, CeldPoint cut, Piece *piece, CeldArrowStroke *stroke)
-{
-  size_t     row = (size_t) s->stroke->width + 2, width = (size_t) s->mask.width;
-  CeldStatus status = fill_piece (s, celd_joined_pixel (s, celd_joined_point (s, end, 1)), cut, piece);
-
-  for (size_t i = 0; i < piece->n; i++)
-    piece->pixel[i] = (uint32_t) ((piece->pixel[i] / width + (size_t) s->mask.top + 1) * row +
-                                  piece->pixel[i] % width + (size_t) s->mask.left + 1);
-  *stroke       = *s->stroke;
-  stroke->pixel = piece->pixel;
-  stroke->n     = piece->n;
-  return status;
-}
-
-static void
-release_piece (Piece *piece, CeldArrowStroke *stroke)
-{
-  for (size_t i = 0; i < stroke->n; i++)
-    stroke->distance[stroke->pixel[i]] = INFINITY;
-  celd_free (piece->pixel);
-}
-
-/* A point of the picture in coordinates of the mask. */
-static CeldPoint
-in_mask (const CeldJoinedLines *s, CeldPoint p)
-{
-  return (CeldPoint) { p.x - s->mask.left, p.y - s->mask.top };
-}
-
-static double
-distance (CeldPoint a, CeldPoint b)
-{
-  return hypot (a.x - b.x, a.y - b.y);
+        s->may_take[p] = s->mask.painted[p] && hypot (x + 0.5 - cut.x, y + 0.5 - cut.y) >= s->graph.width + 1;
+      }
+  return celd_joined_take (s, celd_joined_point (s, end, 1), piece);
 }
 
 CeldStatus
@@ -88,19 +35,20 @@ celd_joined_free_tip (const CeldJoinedLines *s, size_t end, CeldPoint *tip)
 {
   double          n = (double) s->graph.line[end / 2].n, width = s->graph.width;
   CeldPoint       cut = celd_joined_point (s, end, fmin (TIP_CUT * width, 0.5 * n));
-  CeldArrowStroke stroke;
-  Piece           piece = { 0 };
-  CeldStatus      status = take_piece (s, end, cut, &piece, &stroke);
+  CeldJoinedPiece piece;
+  CeldStatus      status = take_to_cut (s, end, cut, &piece);
 
   *tip = celd_joined_point (s, end, 0);
-  if (status == CELD_OK && stroke.n)
+  if (status == CELD_OK && piece.stroke.n)
     {
-      uint32_t  start = celd_stroke_follow (&stroke, stroke.pixel, 1), last = celd_stroke_follow (&stroke, &start, 1);
-      CeldPoint a = in_mask (s, celd_stroke_point (&stroke, start)), b = in_mask (s, celd_stroke_point (&stroke, last));
+      uint32_t  start = celd_stroke_follow (&piece.stroke, piece.pixel, 1);
+      uint32_t  last = celd_stroke_follow (&piece.stroke, &start, 1);
+      CeldPoint a = celd_joined_in_mask (s, celd_stroke_point (&piece.stroke, start));
+      CeldPoint b = celd_joined_in_mask (s, celd_stroke_point (&piece.stroke, last));
 
-      *tip = distance (a, cut) > distance (b, cut) ? a : b;
+      *tip = celd_points_apart (a, cut) > celd_points_apart (b, cut) ? a : b;
     }
-  release_piece (&piece, &stroke);
+  celd_joined_release (&piece);
   return status;
 }
 
@@ -109,17 +57,17 @@ celd_joined_free_tip (const CeldJoinedLines *s, size_t end, CeldPoint *tip)
 static CeldStatus
 read_to_cut (const CeldJoinedLines *s, size_t end, CeldPoint cut, bool *found, CeldPoint *tip)
 {
-  CeldArrowStroke stroke;
   CeldArrowEnds   ends;
-  Piece           piece = { 0 };
-  CeldStatus      status = take_piece (s, end, cut, &piece, &stroke);
+  CeldJoinedPiece piece;
+  CeldStatus      status = take_to_cut (s, end, cut, &piece);
 
-  *found = status == CELD_OK && stroke.n >= CELD_LEAST_STROKE &&
-           celd_arrowhead (&stroke, s->style == CELD_ARROW_DOT, &ends);
-  *found = *found && distance (in_mask (s, ends.tail), cut) < distance (in_mask (s, ends.tip), cut);
+  *found = status == CELD_OK && piece.stroke.n >= CELD_LEAST_STROKE &&
+           celd_arrowhead (&piece.stroke, s->style == CELD_ARROW_DOT, &ends);
+  *found = *found && celd_points_apart (celd_joined_in_mask (s, ends.tail), cut) <
+                       celd_points_apart (celd_joined_in_mask (s, ends.tip), cut);
   if (*found)
-    *tip = in_mask (s, ends.tip);
-  release_piece (&piece, &stroke);
+    *tip = celd_joined_in_mask (s, ends.tip);
+  celd_joined_release (&piece);
   return status;
 }
 
@@ -135,7 +83,7 @@ has_hook (const CeldJoinedLines *s, size_t end)
       CeldPoint c = celd_joined_point (s, end, at + reach);
       double    dot = (b.x - a.x) * (c.x - b.x) + (b.y - a.y) * (c.y - b.y);
 
-      if (dot < cos (HOOK) * distance (a, b) * distance (b, c))
+      if (dot < cos (HOOK) * celd_points_apart (a, b) * celd_points_apart (b, c))
         return true;
     }
   return false;

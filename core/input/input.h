@@ -396,8 +396,8 @@ typedef struct
 /* All lines of the thinned paint of a mask, but for closed ones that meet no other.  To be cleared by the caller. */
 CeldStatus celd_stroke_trace (const CeldStrokeMask *mask, CeldStrokeGraph *graph);
 
-/* The long ones of these lines; with `divided`, they end where the paint is much wider than elsewhere, as it is at heads
- * and dots.  None if there are more than 2000 lines, which are no arrows.  To be cleared by the caller. */
+/* The long ones of these lines; with `divided`, they end where the paint is much wider than elsewhere, as it is at
+ * heads and dots.  None if there are more than 2000 lines, which are no arrows.  To be cleared by the caller. */
 CeldStatus celd_stroke_graph_new (const CeldStrokeMask *mask, bool divided, CeldStrokeGraph *graph);
 void       celd_stroke_graph_clear (CeldStrokeGraph *graph);
 
@@ -419,8 +419,8 @@ CeldPoint celd_line_sums_point (const CeldLineSums *sums, CeldPoint prior);
 
 /* ------------------------------------------------------------------ joined-arrows.c */
 
-/* Appends the arrows of connected paint of one colour whose ends meet, and a problem for each long line that is unclear.
- * *any: there are such arrows, at least two; else nothing is appended. */
+/* Appends the arrows of connected paint of one colour whose ends meet, and a problem for each long line that is
+ * unclear. *any: there are such arrows, at least two; else nothing is appended. */
 CeldStatus celd_joined_arrows_read (CeldArrowStroke *stroke, const CeldArrowLayer *layer, CeldArrowStyle style,
                                     CeldRelations *relations, CeldProblems *problems, bool *any);
 
@@ -447,9 +447,9 @@ void       celd_colour_strokes_clear (CeldColourStrokes *strokes);
 
 /* ------------------------------------------------------------------ hidden-ends.c */
 
-/* An end of an arrow: where its paint ends, the direction in which it does, and its mean width.  visible: it ends there,
- * else other paint of the component goes on in its direction and may hide its end; broken: so does paint of its own
- * colour farther on, which may be more of it; known: it ends at `place`. */
+/* An end of an arrow: where its paint ends, the direction in which it does, and its mean width.  visible: it ends
+ * there, else other paint of the component goes on in its direction and may hide its end; broken: so does paint of its
+ * own colour farther on, which may be more of it; known: it ends at `place`. */
 typedef struct
 {
   CeldPoint at, way, place;

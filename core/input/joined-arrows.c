@@ -1,8 +1,8 @@
 /* Arrows of one colour that share ends: several from one point, several to one point, or one behind the other.
  *
- * The paint is a graph of lines (stroke-graph.c), of which each may be an arrow: joined-heads.c reads those with heads or
- * dots, joined-profiles.c those that fade or taper.  Two lines that meet and go straight on may be one arrow that passes
- * there.  They are read only if both begin or both end there, or if the head is clear between them.
+ * The paint is a graph of lines (stroke-graph.c), of which each may be an arrow: joined-heads.c reads those with heads
+ * or dots, joined-profiles.c those that fade or taper.  Two lines that meet and go straight on may be one arrow that
+ * passes there.  They are read only if both begin or both end there, or if the head is clear between them.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -141,8 +141,10 @@ celd_joined_arrows_read (CeldArrowStroke *stroke, const CeldArrowLayer *layer, C
 
   if (status == CELD_OK)
     status = celd_stroke_graph_new (&s.mask, style == CELD_ARROW_HEAD || style == CELD_ARROW_DOT, &s.graph);
-  if (status == CELD_OK && !(s.explained = celd_alloc ((size_t) s.mask.width * (size_t) s.mask.height, 1)))
+  if (status == CELD_OK && !(s.explained = celd_alloc (2 * (size_t) s.mask.width * (size_t) s.mask.height, 1)))
     status = CELD_NO_MEMORY;
+  if (status == CELD_OK)
+    s.may_take = s.explained + (size_t) s.mask.width * (size_t) s.mask.height;
   if (status == CELD_OK && s.graph.n_lines && s.graph.n_lines <= MOST_LINES)
     status = read_lines (&s, layer, relations, problems, &n);
   *any = n > 1;

@@ -7,6 +7,8 @@
 
 #include "input/input.h"
 
+#include <math.h>
+
 #define CELD_LEAST_LINE 5   /* widths of the paint: a shorter line is part of something else; chosen */
 #define CELD_MOST_APART 2.4 /* widths for which lines that meet may lie side by side; chosen: 30 degrees */
 #define CELD_HEAD_REACH 5.5 /* widths from the tip to the end of a barb, at most; chosen */
@@ -25,7 +27,8 @@ typedef struct
   CeldStrokeMask   mask;
   CeldStrokeGraph  graph;
   uint8_t         *explained; /* of each pixel of the mask: does it belong to a line, or to a head that was found? */
-  CeldJoinedEnd     *end;       /* two for each line: end i of line k is 2 k + i */
+  uint8_t         *may_take;  /* the same size: may a piece have that pixel? */
+  CeldJoinedEnd   *end;       /* two for each line: end i of line k is 2 k + i */
 } CeldJoinedLines;
 
 /* The arrows of a line: none if it is unclear, or one, or two that meet at its corner.  role: of each end, 1 = an arrow
@@ -82,11 +85,33 @@ celd_joined_painted (const CeldJoinedLines *lines, CeldPoint p)
   return celd_joined_inside (lines, p) && lines->mask.painted[celd_joined_pixel (lines, p)];
 }
 
+/* A point of the picture in coordinates of the mask. */
+static inline CeldPoint
+celd_joined_in_mask (const CeldJoinedLines *lines, CeldPoint p)
+{
+  return (CeldPoint) { p.x - lines->mask.left, p.y - lines->mask.top };
+}
+
+static inline double
+celd_points_apart (CeldPoint a, CeldPoint b)
+{
+  return hypot (a.x - b.x, a.y - b.y);
+}
+
 static inline CeldPoint
 celd_moved (CeldPoint p, CeldPoint way, double distance)
 {
   return (CeldPoint) { p.x + distance * way.x, p.y + distance * way.y };
 }
+
+/* ------------------------------------------------------------------ joined-pieces.c */
+
+typedef struct { CeldArrowStroke stroke; uint32_t *pixel; size_t capacity; } CeldJoinedPiece;
+
+/* The paint that may be taken and is connected with a point, as a stroke of its own; it may not be taken again.  To be
+ * released by the caller in any case. */
+CeldStatus celd_joined_take (const CeldJoinedLines *lines, CeldPoint start, CeldJoinedPiece *piece);
+void       celd_joined_release (CeldJoinedPiece *piece);
 
 /* ------------------------------------------------------------------ explained-paint.c */
 

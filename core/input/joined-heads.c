@@ -1,7 +1,7 @@
 /* Which end of each of several lines that meet has its head or dot.
  *
- * An arrow has one head, so that a free end decides about the other one, too.  The heads that are decided explain some of
- * the paint where lines meet, and what remains decides about lines without a free end.  Two arrows that begin at one
+ * An arrow has one head, so that a free end decides about the other one, too.  The heads that are decided explain some
+ * of the paint where lines meet, and what remains decides about lines without a free end.  Two arrows that begin at one
  * point, and nothing else there, are one line with a corner and a head at both ends.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
@@ -200,8 +200,8 @@ place_node (Heads *s, int node)
   return celd_joined_rest (lines, place, CELD_HEAD_REACH) <= MOST_REST;
 }
 
-/* Is a line long enough for what it is said to be, without a corner unless it is two arrows, and is there no other paint
- * along it?  The ends of a line without a free end must be apart. */
+/* Is a line long enough for what it is said to be, without a corner unless it is two arrows, and is there no other
+ * paint along it?  The ends of a line without a free end must be apart. */
 static bool
 is_plausible (const Heads *s, size_t k)
 {

@@ -1,8 +1,8 @@
 /* Heads and dots where lines of paint meet.
  *
  * The paint of the lines is explained.  A barb of a head is a straight piece of other paint that leaves the tip at an
- * angle to the line, with nothing on its outer side; the edge of a filled head looks alike.  Both barbs are looked for at
- * places round the one where the lines meet.  A dot is a place where the paint is wider than lines that meet.
+ * angle to the line, with nothing on its outer side; the edge of a filled head looks alike.  Both barbs are looked for
+ * at places round the one where the lines meet.  A dot is a place where the paint is wider than lines that meet.
  *
  * Cost: some hundred thousand samples for each end of a line.
  *

@@ -16,24 +16,18 @@
  * where the paint is theirs, too; 0 = none meet it. */
 typedef struct { size_t line, from, to; CeldPoint place[2]; double apart[2]; } LinePart;
 
-static double
-distance (CeldPoint a, CeldPoint b)
-{
-  return hypot (a.x - b.x, a.y - b.y);
-}
-
 static bool
 is_apart (const CeldJoinedLines *s, const LinePart *part, CeldPoint p)
 {
   for (int i = 0; i < 2; i++)
-    if (distance (p, part->place[i]) < part->apart[i] * s->graph.width)
+    if (celd_points_apart (p, part->place[i]) < part->apart[i] * s->graph.width)
       return false;
   return true;
 }
 
-/* Marks the paint round a point of a part, as far as it is wide there. */
+/* Lets the paint round a point of a part be taken, as far as it is wide there. */
 static void
-mark_paint (CeldJoinedLines *s, const LinePart *part, CeldPoint c)
+allow_paint (CeldJoinedLines *s, const LinePart *part, CeldPoint c)
 {
   double r = sqrt (s->mask.squared[celd_joined_pixel (s, c)]) + 1;
 
@@ -43,36 +37,9 @@ mark_paint (CeldJoinedLines *s, const LinePart *part, CeldPoint c)
         CeldPoint p = { x + 0.5, y + 0.5 };
         size_t    i = celd_joined_pixel (s, p);
 
-        if (s->mask.painted[i] && distance (c, p) <= r && is_apart (s, part, p))
-          s->explained[i] = 1;
+        if (s->mask.painted[i] && celd_points_apart (c, p) <= r && is_apart (s, part, p))
+          s->may_take[i] = 1;
       }
-}
-
-/* Collects the marked paint that is connected with a pixel of the mask: circles also reach over narrow gaps. */
-static CeldStatus
-collect_paint (CeldJoinedLines *s, size_t start, CeldCrossingStrokes *paint, size_t *n)
-{
-  size_t     width = (size_t) s->mask.width, row = (size_t) s->stroke->width + 2;
-  CeldStatus status = CELD_OK;
-
-  if (s->explained[start])
-    status = celd_append (paint->pixel, *n, paint->pixel_capacity, (uint32_t) start);
-  s->explained[start] = 0;
-  for (size_t done = 0; done < *n && status == CELD_OK; done++)
-    {
-      size_t p = paint->pixel[done], beside[4] = { p - width, p + 1, p + width, p - 1 }; /* no paint is on the border */
-
-      for (int i = 0; i < 4 && status == CELD_OK; i++)
-        if (s->explained[beside[i]])
-          {
-            s->explained[beside[i]] = 0;
-            status = celd_append (paint->pixel, *n, paint->pixel_capacity, (uint32_t) beside[i]);
-          }
-    }
-  for (size_t i = 0; i < *n; i++)
-    paint->pixel[i] = (uint32_t) ((paint->pixel[i] / width + (size_t) s->mask.top + 1) * row +
-                                  paint->pixel[i] % width + (size_t) s->mask.left + 1);
-  return status;
 }
 
 /* The arrow of a part.  *tail: the end of the part that is nearer; -1 if its opacity or width does not say. */
@@ -80,30 +47,25 @@ static CeldStatus
 read_part (CeldJoinedLines *s, const LinePart *part, const CeldArrowLayer *layer, CeldLineArrows *to, int *tail)
 {
   const CeldStrokeLine *line = &s->graph.line[part->line];
-  CeldArrowStroke       stroke = *s->stroke;
-  CeldCrossingStrokes   paint = { 0 };
+  CeldJoinedPiece       piece;
   CeldArrowEnds         ends;
   CeldStatus            status;
 
-  *tail    = -1;
-  stroke.n = 0;
-  memset (s->explained, 0, (size_t) s->mask.width * (size_t) s->mask.height);
+  *tail = -1;
+  memset (s->may_take, 0, (size_t) s->mask.width * (size_t) s->mask.height);
   for (size_t i = part->from; i <= part->to; i++)
-    mark_paint (s, part, line->at[i]);
-  status = collect_paint (s, celd_joined_pixel (s, line->at[(part->from + part->to) / 2]), &paint, &stroke.n);
-  stroke.pixel = paint.pixel;
-  if (status == CELD_OK && stroke.n >= CELD_LEAST_STROKE && celd_arrow_profile (&stroke, layer, s->style, &ends))
+    allow_paint (s, part, line->at[i]);
+  status = celd_joined_take (s, line->at[(part->from + part->to) / 2], &piece);
+  if (status == CELD_OK && piece.stroke.n >= CELD_LEAST_STROKE &&
+      celd_arrow_profile (&piece.stroke, layer, s->style, &ends))
     {
-      CeldPoint end[2] = { { ends.tail.x - s->mask.left, ends.tail.y - s->mask.top },
-                           { ends.tip.x - s->mask.left, ends.tip.y - s->mask.top } };
+      CeldPoint end[2] = { celd_joined_in_mask (s, ends.tail), celd_joined_in_mask (s, ends.tip) };
 
-      *tail = distance (end[0], line->at[part->from]) > distance (end[0], line->at[part->to]);
+      *tail = celd_points_apart (end[0], line->at[part->from]) > celd_points_apart (end[0], line->at[part->to]);
       to->nearer[to->n]    = part->apart[*tail] > 0 ? part->place[*tail] : end[0];
       to->farther[to->n++] = part->apart[!*tail] > 0 ? part->place[!*tail] : end[1];
     }
-  for (size_t i = 0; i < stroke.n; i++)
-    stroke.distance[stroke.pixel[i]] = INFINITY;
-  celd_free (paint.pixel);
+  celd_joined_release (&piece);
   return status;
 }
 
@@ -131,7 +93,7 @@ read_corner (CeldJoinedLines *s, const LinePart *whole, const CeldArrowLayer *la
   if (!celd_stroke_line_corner (&s->graph, whole->line, &corner))
     return CELD_OK;
   for (size_t i = 1; i < line->n; i++)
-    if (distance (line->at[i], corner) < distance (line->at[at], corner))
+    if (celd_points_apart (line->at[i], corner) < celd_points_apart (line->at[at], corner))
       at = i;
   part[0].to       = part[1].from     = at;
   part[0].place[1] = part[1].place[0] = corner;

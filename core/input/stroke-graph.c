@@ -1,8 +1,8 @@
 /* The long lines of connected paint, and the nodes where they meet or end.
  *
- * Of the lines of the thinned paint (stroke-trace.c) short branches are rough edges or parts of arrowheads; they are left
- * out, but their directions show where lines meet.  Nodes near each other are one, because thinned strokes rarely meet in
- * one pixel.
+ * Of the lines of the thinned paint (stroke-trace.c) short branches are rough edges or parts of arrowheads; they are
+ * left out, but their directions show where lines meet.  Nodes near each other are one, because thinned strokes rarely
+ * meet in one pixel.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */

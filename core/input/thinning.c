@@ -1,10 +1,10 @@
 /* Thins paint to lines of one pixel.
  *
- * Pixels on the edge are removed from two sides in turn, unless that would end or divide a line (Zhang and Suen 1984, "A
- * fast parallel algorithm for thinning digital patterns").  Those with two neighbours stay, because diagonal lines of two
- * pixels would shrink from their ends (Lü and Wang 1986, "A comment on 'A fast parallel algorithm for thinning digital
- * patterns'").  Then pixels in the corners of steps are removed, so that a pixel of a line has two neighbours, and others
- * are ends or branchings.
+ * Pixels on the edge are removed from two sides in turn, unless that would end or divide a line (Zhang and Suen 1984,
+ * "A fast parallel algorithm for thinning digital patterns").  Those with two neighbours stay, because diagonal lines
+ * of two pixels would shrink from their ends (Lü and Wang 1986, "A comment on 'A fast parallel algorithm for thinning
+ * digital patterns'").  Then pixels in the corners of steps are removed, so that a pixel of a line has two neighbours,
+ * and others are ends or branchings.
  *
  * Cost: as many passes over the paint as half its largest width.
  *

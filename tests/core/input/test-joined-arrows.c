@@ -184,6 +184,41 @@ cut_by_the_frame (void)
     }
 }
 
+/* A pencil of one pixel without antialiasing: pixels of its diagonals touch at corners alone. */
+static void
+thin_diagonals (void)
+{
+  for (int k = 0; k < 4; k++)
+    {
+      CeldPaint paint = blank (SIZE, SIZE);
+      int       middle = SIZE / 2, length = 80;
+      Answer    answer;
+      bool      found[2] = { false, false };
+
+      for (int side = -1; side <= 1; side += 2)
+        for (int i = 0; i <= length; i++)
+          {
+            int x = middle + (k % 2 ? side * i : k / 2 ? i : -i), y = middle + (k % 2 ? k / 2 ? i : -i : side * i);
+
+            memcpy (paint.data + 4 * ((size_t) y * paint.stride + (size_t) x), GREEN, 3);
+            paint.data[4 * ((size_t) y * paint.stride + (size_t) x) + 3] = (uint8_t) (255 - 200 * i / length);
+          }
+      answer = read_paint (&paint, CELD_ARROW_FADE);
+      CHECK (answer.relations.n == 2 && answer.problems.n == 0);
+      for (size_t i = 0; i < answer.relations.n; i++)
+        {
+          const CeldRelation *r = &answer.relations.item[i];
+
+          CHECK (hypot (r->nearer.x - middle, r->nearer.y - middle) < 5);
+          CHECK (fabs (fabs (r->farther.x - middle) - length) < 5 && fabs (fabs (r->farther.y - middle) - length) < 5);
+          found[(k % 2 ? r->farther.x : r->farther.y) > middle] = true;
+        }
+      CHECK (found[0] && found[1]);
+      forget (&answer);
+      free (paint.data);
+    }
+}
+
 /* All are blue, so that all crack. */
 static void
 cracks (void)
@@ -216,6 +251,7 @@ main (void)
   RUN (in_a_net);
   RUN (round_a_loop);
   RUN (cut_by_the_frame);
+  RUN (thin_diagonals);
   RUN (cracks);
   return DONE;
 }
