@@ -23,7 +23,6 @@
 #define THICK_START    1.4 /* largest ratio of the width near the tail to that in the middle: more is a head; chosen */
 #define SHORTEST_SHAFT 6   /* pixels; chosen */
 #define AXIS_ROUNDS    3   /* iterations in which the axis is turned towards the tip; chosen */
-#define BEYOND_BARBS   5   /* widths of the shaft from the tip, where no head is; chosen */
 
 /* The pixels of a stroke at a distance of `from` or more, in coordinates along an axis: s forwards, v sideways (left of
  * the axis is positive). */
@@ -284,15 +283,22 @@ view_beyond (const CeldArrowStroke *stroke, double w, double end)
   return (View) { last, direction (celd_stroke_centroid (stroke, end - back, end - 0.75 * back), last), end };
 }
 
+/* Distance from the tip to the end of the longer barb. */
+static double
+barb_length (const Extent *e)
+{
+  return fmax (hypot (e->most_s - e->left_s, e->left), hypot (e->most_s - e->right_s, e->right));
+}
+
 /* Do two lines of a loop meet at the farthest place from where a stroke was followed?  Then their paint just before it
- * is on two sides. */
+ * is on two sides.  That says nothing if it is no farther than the barbs of a head where the stroke was followed from. */
 static bool
-two_meet_at_end (const CeldArrowStroke *stroke, double w)
+two_meet_at_end (const CeldArrowStroke *stroke, double w, double barb)
 {
   double    to = celd_stroke_length (stroke) - 2 * w, from = to - fmax (1, w);
   CeldPoint c = celd_stroke_centroid (stroke, from, to);
 
-  for (size_t i = 0; i < stroke->n && from > BEYOND_BARBS * w; i++)
+  for (size_t i = 0; i < stroke->n && from > barb + w; i++)
     {
       double    d = stroke->distance[stroke->pixel[i]];
       CeldPoint p = celd_stroke_point (stroke, stroke->pixel[i]);
@@ -334,7 +340,7 @@ read_from_tail (CeldArrowStroke *stroke, uint32_t tail, bool dot, CeldArrowEnds 
   /* The tail must be farthest from the tip; else the stroke was followed from the middle of the shaft, or of a loop. */
   tail = nearest_pixel (stroke, tip);
   last = celd_stroke_point (stroke, celd_stroke_follow (stroke, &tail, 1));
-  return hypot (last.x - ends->tail.x, last.y - ends->tail.y) < w + 2 && !two_meet_at_end (stroke, w);
+  return hypot (last.x - ends->tail.x, last.y - ends->tail.y) < w + 2 && !two_meet_at_end (stroke, w, barb_length (&e));
 }
 
 bool

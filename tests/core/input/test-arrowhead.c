@@ -53,6 +53,24 @@ pens_that_start_or_end_thin (void)
     }
 }
 
+/* Barbs that are nearly as long as the shaft. */
+static void
+long_barbs (void)
+{
+  int right = 0;
+
+  for (int degrees = 0; degrees < 360; degrees += 15)
+    {
+      double angle = degrees * 0.0174532925;
+      Arrow  a = arrow_at ((Point) { 50 - 13 * cos (angle), 50 - 13 * sin (angle) }, angle, 27, 3, 0, 0, OPEN, 20);
+      int    verdict = judge_arrow (&a, 100, CELD_ARROW_HEAD, false);
+
+      CHECK (verdict >= 0);
+      right += verdict;
+    }
+  CHECK (right >= 22);
+}
+
 static void
 without_direction (void)
 {
@@ -105,6 +123,7 @@ main (void)
   RUN (heads_at_all_angles);
   RUN (heads_of_all_kinds);
   RUN (pens_that_start_or_end_thin);
+  RUN (long_barbs);
   RUN (without_direction);
   RUN (arrows_end_to_end);
   return DONE;
