@@ -11,7 +11,7 @@
 #include <math.h>
 
 #define STRAIGHT   0.5 /* radians by which an arrow may turn where it passes others; chosen */
-#define MOST_LINES 200 /* of connected paint; more are a drawing, or hatching; chosen */
+#define MOST_LINES 100 /* of connected paint; more are a drawing, or hatching; chosen */
 
 static bool
 is_long (const CeldJoinedLines *s, size_t line)
@@ -88,6 +88,14 @@ remove_passing (const CeldJoinedLines *s, CeldLineArrows *arrows)
     }
 }
 
+/* A point of the mask as one of the picture: where lines are led on to meet may lie somewhat outside. */
+static CeldPoint
+in_picture (const CeldJoinedLines *s, CeldPoint p)
+{
+  return (CeldPoint) { fmin (fmax (p.x + s->mask.left, 0.5), s->stroke->width - 0.5),
+                       fmin (fmax (p.y + s->mask.top, 0.5), s->stroke->height - 0.5) };
+}
+
 /* Appends the arrows of a line, or a problem in its middle. */
 static CeldStatus
 add_line (const CeldJoinedLines *s, size_t k, const CeldLineArrows *arrows, bool crack, CeldRelations *relations,
@@ -97,11 +105,14 @@ add_line (const CeldJoinedLines *s, size_t k, const CeldLineArrows *arrows, bool
   CeldStatus status = CELD_OK;
 
   for (int i = 0; i < arrows->n && status == CELD_OK; i++)
-    status = celd_relation_add (relations, (CeldRelation) {
-      .nearer  = { .x = arrows->nearer[i].x + s->mask.left, .y = arrows->nearer[i].y + s->mask.top },
-      .farther = { .x = arrows->farther[i].x + s->mask.left, .y = arrows->farther[i].y + s->mask.top },
-      .crack   = crack, .weight = 1, .gap = 1, .source = CELD_SOURCE_ARROW,
-    });
+    {
+      CeldPoint nearer = in_picture (s, arrows->nearer[i]), farther = in_picture (s, arrows->farther[i]);
+
+      status = celd_relation_add (relations, (CeldRelation) {
+        .nearer = { .x = nearer.x, .y = nearer.y }, .farther = { .x = farther.x, .y = farther.y },
+        .crack  = crack, .weight = 1, .gap = 1, .source = CELD_SOURCE_ARROW,
+      });
+    }
   if (!arrows->n)
     status = celd_problem_add (problems, (CeldProblem) {
       .kind = CELD_PROBLEM_ARROW_UNCLEAR, .relation = CELD_NO_INDEX,

@@ -15,14 +15,15 @@
 #define CLEAR_SIDE 0.8 /* score of each barb of a head that is beyond doubt */
 #define MOST_REST  4.5 /* square widths of paint at a node that are not explained, ... */
 #define DOT_REACH  9   /* ... in this distance, if there is a dot: a short branch may lead to another one */
+#define MOST_MARGIN 0.33 /* part of a line at each of its ends where other paint may be beside it */
 
-#define NEITHER -1
-#define BOTH    2 /* two arrows, which meet at a corner of the line */
+#define UNKNOWN -1 /* ... or none has one */
+#define BOTH    2  /* two arrows, which meet at a corner of the line */
 
 typedef struct
 {
   CeldJoinedLines *lines;
-  int             *marked; /* of each line: which end has the head or dot; NEITHER = not known */
+  int             *marked; /* of each line: which end has the head or dot; also UNKNOWN or BOTH */
   size_t          *heads;  /* room for all ends of a node */
 } Heads;
 
@@ -67,29 +68,23 @@ find_marks (CeldJoinedLines *s)
   return status;
 }
 
-/* Joins two lines at a node that has no more, and no mark: something else was there.  *joined: whether there were such
- * lines. */
+/* Joins the two lines of each node that has no more, and no mark: something else was there.  *joined: whether there were
+ * such nodes. */
 static CeldStatus
 join_through (CeldJoinedLines *s, bool *joined)
 {
   CeldStrokeGraph *g = &s->graph;
   size_t           before = g->n_lines;
-  CeldStatus       status = CELD_OK;
+  bool            *marked = celd_alloc0 (g->n_nodes, sizeof *marked);
+  CeldStatus       status = marked ? CELD_OK : CELD_NO_MEMORY;
 
-  for (size_t node = 0; node < g->n_nodes && status == CELD_OK && g->n_lines == before; node++)
-    {
-      size_t n = 0, bare = 0;
-
-      for (size_t i = 0; i < 2 * g->n_lines; i++)
-        if (celd_joined_node (s, i) == (int) node)
-          {
-            n++;
-            bare += s->end[i].mark == CELD_END_BARE;
-          }
-      if (n == 2 && bare == 2)
-        status = celd_stroke_graph_join (g, (int) node);
-    }
+  for (size_t i = 0; marked && i < 2 * g->n_lines; i++)
+    marked[celd_joined_node (s, i)] |= s->end[i].mark != CELD_END_BARE;
+  for (size_t node = 0; node < g->n_nodes && status == CELD_OK; node++)
+    if (!marked[node])
+      status = celd_stroke_graph_join (g, (int) node);
   *joined = g->n_lines < before;
+  celd_free (marked);
   return status;
 }
 
@@ -105,16 +100,16 @@ marked_end (const CeldJoinedLines *s, size_t k, bool corners)
 
   if (free_end[0] == free_end[1] && e[0].mark == CELD_END_MARKED && e[1].mark == CELD_END_MARKED)
     return corners && (free_end[0] || s->style != CELD_ARROW_DOT) &&
-           celd_stroke_line_corner (&s->graph, k, &corner) ? BOTH : NEITHER;
+           celd_stroke_line_corner (&s->graph, k, &corner) ? BOTH : UNKNOWN;
   for (int i = 0; i < 2; i++)
     if (free_end[i] && e[i].mark == CELD_END_MARKED)
-      return !free_end[!i] || e[!i].mark == CELD_END_BARE ? i : NEITHER;
+      return !free_end[!i] || e[!i].mark == CELD_END_BARE ? i : UNKNOWN;
     else if (free_end[i] && e[i].mark == CELD_END_BARE)
-      return e[!i].mark == CELD_END_MARKED ? !i : NEITHER;
+      return e[!i].mark == CELD_END_MARKED ? !i : UNKNOWN;
   for (int i = 0; i < 2; i++)
     if (e[i].mark == CELD_END_MARKED && e[!i].mark == CELD_END_BARE)
       return i;
-  return NEITHER;
+  return UNKNOWN;
 }
 
 /* Decides about lines, and explains the paint of their heads; false if there was nothing new. */
@@ -125,7 +120,7 @@ decide (Heads *s, bool corners)
   bool             any = false;
 
   for (size_t k = 0; k < lines->graph.n_lines; k++)
-    if (s->marked[k] == NEITHER && (s->marked[k] = marked_end (lines, k, corners)) != NEITHER)
+    if (s->marked[k] == UNKNOWN && (s->marked[k] = marked_end (lines, k, corners)) != UNKNOWN)
       {
         any = true;
         for (size_t i = 2 * k; i < 2 * k + 2 && lines->style != CELD_ARROW_DOT; i++)
@@ -143,7 +138,7 @@ decide_all (Heads *s)
 
   while (decide (s, false) || decide (s, true))
     for (size_t i = 0; i < 2 * lines->graph.n_lines; i++)
-      if (lines->style != CELD_ARROW_DOT && s->marked[i / 2] == NEITHER && !celd_joined_is_free (lines, i) &&
+      if (lines->style != CELD_ARROW_DOT && s->marked[i / 2] == UNKNOWN && !celd_joined_is_free (lines, i) &&
           may_be_marked (lines, i))
         {
           lines->end[i].tip = celd_joined_meeting_point (lines, celd_joined_node (lines, i));
@@ -159,7 +154,7 @@ static CeldPoint
 place_of (const Heads *s, int node)
 {
   const CeldJoinedLines *lines = s->lines;
-  CeldJoinedEnd            dot = { .tip = celd_joined_meeting_point (lines, node) };
+  CeldJoinedEnd          dot = { .tip = celd_joined_meeting_point (lines, node) };
   size_t                 n = 0;
 
   for (size_t i = 0; i < 2 * lines->graph.n_lines; i++)
@@ -207,18 +202,19 @@ is_plausible (const Heads *s, size_t k)
 {
   const CeldJoinedLines *lines = s->lines;
   const CeldStrokeLine  *line = &lines->graph.line[k];
-  const CeldJoinedEnd     *e = &lines->end[2 * k];
+  const CeldJoinedEnd   *e = &lines->end[2 * k];
   bool                   met = !celd_joined_is_free (lines, 2 * k) && !celd_joined_is_free (lines, 2 * k + 1);
   CeldPoint              corner;
 
   if (celd_stroke_line_length (line) < (met ? 2 * CELD_HEAD_REACH : CELD_LEAST_LINE) * lines->graph.width)
     return false;
-  if (s->marked[k] != NEITHER && celd_stroke_line_corner (&lines->graph, k, &corner))
+  if (s->marked[k] != UNKNOWN && celd_stroke_line_corner (&lines->graph, k, &corner))
     for (int i = 0; i < 2; i++)
       if (s->marked[k] != BOTH ||
           hypot (e[i].tip.x - corner.x, e[i].tip.y - corner.y) < CELD_LEAST_LINE * lines->graph.width)
         return false;
-  return celd_joined_is_alone (lines, k, (size_t) (CELD_HEAD_REACH * lines->graph.width));
+  return celd_joined_is_alone (lines, k, (size_t) fmin (CELD_HEAD_REACH * lines->graph.width,
+                                                        MOST_MARGIN * (double) line->n));
 }
 
 /* Places all nodes.  The lines of those that are unclear, and those that cannot be arrows, are unclear. */
@@ -241,11 +237,11 @@ place_nodes (Heads *s)
       clear = n < 2 || place_node (s, (int) node);
       for (size_t i = 0; i < 2 * lines->graph.n_lines && !clear; i++)
         if (celd_joined_node (lines, i) == (int) node)
-          s->marked[i / 2] = NEITHER;
+          s->marked[i / 2] = UNKNOWN;
     }
   for (size_t k = 0; k < lines->graph.n_lines; k++)
     if (!is_plausible (s, k))
-      s->marked[k] = NEITHER;
+      s->marked[k] = UNKNOWN;
 }
 
 /* ------------------------------------------------------------------ arrows */
@@ -255,7 +251,7 @@ static CeldLineArrows
 arrows_of (const Heads *s, size_t k)
 {
   const CeldJoinedEnd *e = &s->lines->end[2 * k];
-  CeldLineArrows     a = { .n = s->marked[k] == NEITHER ? 0 : s->marked[k] == BOTH ? 2 : 1 };
+  CeldLineArrows     a = { .n = s->marked[k] == UNKNOWN ? 0 : s->marked[k] == BOTH ? 2 : 1 };
   CeldPoint          corner = e[0].tip;
 
   if (a.n == 2)
@@ -297,7 +293,7 @@ celd_joined_heads_read (CeldJoinedLines *lines, CeldLineArrows *arrows)
   if (status == CELD_OK)
     {
       for (size_t k = 0; k < lines->graph.n_lines; k++)
-        s.marked[k] = NEITHER;
+        s.marked[k] = UNKNOWN;
       decide_all (&s);
       place_nodes (&s);
       for (size_t k = 0; k < lines->graph.n_lines; k++)

@@ -184,6 +184,36 @@ cut_by_the_frame (void)
     }
 }
 
+/* Tips that meet on the frame: the places that are read lie in the picture. */
+static void
+tips_on_the_frame (void)
+{
+  uint32_t state = 37;
+  size_t   read = 0;
+
+  for (int i = 0; i < 40; i++)
+    {
+      double    w = random_between (&state, 3, 6), length = random_between (&state, 13, 16) * w;
+      double    angle = 3.1416 + random_between (&state, -0.3, 0.3);
+      Point     place = { random_between (&state, -1, 2), SIZE / 2. };
+      CeldPaint paint = blank (SIZE, SIZE);
+      Answer    answer;
+
+      for (int k = -1; k <= 1; k += 2)
+        {
+          Arrow a = through (place, angle + 0.7 * k, length, 1, w, STYLES[i % 4], i % 8 < 4);
+
+          draw_arrow (&paint, &a, GREEN);
+        }
+      answer = read_paint (&paint, STYLES[i % 4]);
+      for (size_t k = 0; k < answer.relations.n; k++, read++)
+        CHECK (fmin (answer.relations.item[k].farther.x, answer.relations.item[k].nearer.x) >= 0);
+      forget (&answer);
+      free (paint.data);
+    }
+  CHECK (read > 20);
+}
+
 /* A pencil of one pixel without antialiasing: pixels of its diagonals touch at corners alone. */
 static void
 thin_diagonals (void)
@@ -251,6 +281,7 @@ main (void)
   RUN (in_a_net);
   RUN (round_a_loop);
   RUN (cut_by_the_frame);
+  RUN (tips_on_the_frame);
   RUN (thin_diagonals);
   RUN (cracks);
   return DONE;
