@@ -48,6 +48,7 @@ components_clear (Components *s)
   celd_free (s->stroke.distance);
   celd_free (s->stroke.sums);
   celd_free (s->stroke.earlier);
+  celd_free (s->stroke.rings);
 }
 
 static CeldStatus
@@ -89,9 +90,9 @@ gather_pixels (Components *s)
   s->stroke = (CeldArrowStroke) {
     .width = s->label.width, .height = s->label.height,
     .distance = celd_alloc (plane, sizeof (float)), .sums = celd_alloc (most + most / 2 + 4, sizeof (CeldStrokeSums)),
-    .earlier = celd_alloc (most, sizeof (float)),
+    .earlier = celd_alloc (most, sizeof (float)), .rings = celd_alloc (3 * most, sizeof (uint32_t)),
   };
-  if (!next || !s->pixel || !s->stroke.distance || !s->stroke.sums || !s->stroke.earlier)
+  if (!next || !s->pixel || !s->stroke.distance || !s->stroke.sums || !s->stroke.earlier || !s->stroke.rings)
     {
       celd_free (next);
       return CELD_NO_MEMORY;

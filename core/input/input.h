@@ -278,11 +278,12 @@ typedef struct
 {
   int             width, height; /* of the picture */
   float          *distance;      /* such a plane: geodesic distance from the start in pixels; infinite elsewhere */
-  const uint32_t *pixel;         /* of the stroke; another order than that of reading only takes more time */
+  const uint32_t *pixel;         /* of the stroke, which is connected */
   size_t          n;
   CeldStrokeSums *sums;          /* sums[i]: pixels with distance < i; room for 3 n / 2 + 4 */
   size_t          n_sums;
   float          *earlier;       /* room for n distances from an earlier start */
+  uint32_t       *rings;         /* room for 3 n pixels */
 } CeldArrowStroke;
 
 int       celd_stroke_x (const CeldArrowStroke *stroke, uint32_t pixel);     /* column in the picture */

@@ -1,14 +1,19 @@
 /* Geodesic distances along a painted stroke.
  *
  * Steps to the eight neighbours cost 1 or sqrt 2, so that a distance is up to 8 % too long, by about the same factor
- * for pixels side by side.  The pixels are swept in reading order and back until nothing changes.  Strokes are thin, so
- * that this takes a few sweeps, and one more for each turn of a winding stroke.
+ * for pixels side by side.
+ *
+ * Cost: a pass over the pixels.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "input/input.h"
 
+#include <float.h>
 #include <math.h>
+
+#define DIAGONAL    1.41421356f
+#define NOT_REACHED FLT_MAX /* distance of a pixel of the stroke; other pixels of the plane have INFINITY */
 
 /* Pixels in a row of a plane with its border. */
 static size_t
@@ -48,36 +53,51 @@ celd_stroke_painted (const CeldArrowStroke *stroke, CeldPoint p)
   return isfinite (*d) || isfinite (d[-1]) || isfinite (d[1]) || isfinite (*above) || isfinite (*below);
 }
 
-/* Lowers the distance of a pixel to what its neighbours allow. */
-static bool
-relax (CeldArrowStroke *stroke, uint32_t pixel)
-{
-  const float diagonal = 1.41421356f;
-  float      *d = &stroke->distance[pixel], *above = d - row_length (stroke), *below = d + row_length (stroke);
-  float       straight = fminf (fminf (d[-1], d[1]), fminf (*above, *below)) + 1;
-  float       slanted  = fminf (fminf (above[-1], above[1]), fminf (below[-1], below[1])) + diagonal;
-  float       least    = fminf (straight, slanted);
+/* Pixels to go on from, by whole distances: a step from ring r leads to ring r + 1 or r + 2.  Each may have a pixel
+ * once. */
+typedef struct { uint32_t *pixel[3]; size_t n[3]; } Rings;
 
-  if (!(least < *d))
-    return false;
-  *d = least;
-  return true;
+/* Lowers the distances of the neighbours of a pixel to what a step from there costs. */
+static void
+step_from (CeldArrowStroke *stroke, uint32_t pixel, Rings *rings)
+{
+  const uint32_t row = (uint32_t) row_length (stroke);
+  const uint32_t beside[8] = { pixel - row, pixel - 1, pixel + 1, pixel + row,
+                               pixel - row - 1, pixel - row + 1, pixel + row - 1, pixel + row + 1 };
+
+  for (int i = 0; i < 8; i++)
+    {
+      float *there = &stroke->distance[beside[i]], reached = stroke->distance[pixel] + (i < 4 ? 1 : DIAGONAL);
+      size_t ring = (size_t) reached;
+
+      if (reached >= *there || *there > NOT_REACHED)
+        continue;
+      if (*there >= (float) (ring + 1)) /* it is not in that ring yet */
+        rings->pixel[ring % 3][rings->n[ring % 3]++] = beside[i];
+      *there = reached;
+    }
 }
 
+/* Fills in the distances from n starts; those of other pixels of the stroke are NOT_REACHED (Dijkstra's method, with a
+ * ring for a bucket). */
 static void
-sweep_until_settled (CeldArrowStroke *stroke)
+spread (CeldArrowStroke *stroke, const uint32_t *start, size_t n)
 {
-  bool changed;
+  Rings  rings = { .pixel = { stroke->rings, stroke->rings + stroke->n, stroke->rings + 2 * stroke->n } };
+  size_t ring = 0;
 
-  do
+  for (size_t i = 0; i < n; i++)
+    if (stroke->distance[start[i]] > 0)
+      {
+        rings.pixel[0][rings.n[0]++] = start[i];
+        stroke->distance[start[i]]   = 0;
+      }
+  for (; rings.n[0] || rings.n[1] || rings.n[2]; ring = (ring + 1) % 3)
     {
-      changed = false;
-      for (size_t i = 0; i < stroke->n; i++)
-        changed |= relax (stroke, stroke->pixel[i]);
-      for (size_t i = stroke->n; changed && i-- > 0;)
-        relax (stroke, stroke->pixel[i]);
+      for (size_t i = 0; i < rings.n[ring]; i++)
+        step_from (stroke, rings.pixel[ring][i], &rings);
+      rings.n[ring] = 0;
     }
-  while (changed);
 }
 
 /* Fills in the sums. */
@@ -112,10 +132,8 @@ celd_stroke_follow (CeldArrowStroke *stroke, const uint32_t *start, size_t n)
   uint32_t farthest = stroke->pixel[0];
 
   for (size_t i = 0; i < stroke->n; i++)
-    stroke->distance[stroke->pixel[i]] = INFINITY;
-  for (size_t i = 0; i < n; i++)
-    stroke->distance[start[i]] = 0;
-  sweep_until_settled (stroke);
+    stroke->distance[stroke->pixel[i]] = NOT_REACHED;
+  spread (stroke, start, n);
   for (size_t i = 0; i < stroke->n; i++)
     if (stroke->distance[stroke->pixel[i]] > stroke->distance[farthest])
       farthest = stroke->pixel[i];

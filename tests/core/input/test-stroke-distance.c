@@ -5,8 +5,7 @@
 #include "check.h"
 #include "input/input.h"
 
-
-/* A stroke of the '#' in `rows`; ends with free of its three arrays. */
+/* A stroke of the '#' in `rows`; ends with forget. */
 static CeldArrowStroke
 stroke_of (const char *const *rows, uint32_t **pixels)
 {
@@ -23,7 +22,8 @@ stroke_of (const char *const *rows, uint32_t **pixels)
       if (rows[y][x] == '#')
         (*pixels)[t.n++] = (uint32_t) ((y + 1) * (w + 2) + x + 1);
   t.pixel = *pixels;
-  t.sums = malloc ((3 * t.n / 2 + 4) * sizeof *t.sums);
+  t.sums  = malloc ((3 * t.n / 2 + 4) * sizeof *t.sums);
+  t.rings = malloc (3 * t.n * sizeof *t.rings);
   return t;
 }
 
@@ -32,6 +32,7 @@ forget (CeldArrowStroke *t, uint32_t *pixels)
 {
   free (t->distance);
   free (t->sums);
+  free (t->rings);
   free (pixels);
 }
 
@@ -126,9 +127,63 @@ painted (void)
   forget (&t, pixels);
 }
 
+/* Random paint: distances are those that repeated steps between all neighbours settle on. */
+static void
+distances_are_least (void)
+{
+  uint32_t state = 5;
+
+  for (int round = 0; round < 40; round++)
+    {
+      char            text[24][33], *rows[25];
+      uint32_t       *pixels, starts[3];
+      CeldArrowStroke t;
+      float          *least;
+      size_t          n = 0;
+
+      for (int y = 0; y < 24; y++)
+        {
+          for (int x = 0; x < 32; x++) /* the first row connects all columns, which have gaps on one side */
+            text[y][x] = y == 0 || x % 2 == 0 || check_random (&state, 3) ? '#' : '.';
+          text[y][32] = 0;
+          rows[y] = text[y];
+        }
+      rows[24] = NULL;
+      t = stroke_of ((const char *const *) rows, &pixels);
+      for (int i = 0; i < 3; i++)
+        starts[i] = pixels[check_random (&state, (uint32_t) t.n)];
+      celd_stroke_follow (&t, starts, 3);
+      least = malloc (26 * 34 * sizeof *least);
+      for (int p = 0; p < 26 * 34; p++)
+        least[p] = INFINITY;
+      for (int i = 0; i < 3; i++)
+        least[starts[i]] = 0;
+      for (bool changed = true; changed;)
+        {
+          changed = false;
+          for (n = 0; n < t.n; n++)
+            for (int step = 0; step < 9; step++)
+              {
+                float there = least[(int) pixels[n] + (step / 3 - 1) * 34 + step % 3 - 1] + (step % 2 ? 1 : 1.41421356f);
+
+                if (step != 4 && there < least[pixels[n]])
+                  {
+                    least[pixels[n]] = there;
+                    changed = true;
+                  }
+              }
+        }
+      for (n = 0; n < t.n; n++)
+        NEAR (t.distance[pixels[n]], least[pixels[n]], 1e-5);
+      free (least);
+      forget (&t, pixels);
+    }
+}
+
 int
 main (void)
 {
+  RUN (distances_are_least);
   RUN (distances_follow_the_stroke);
   RUN (several_starts);
   RUN (widths_and_centres);
