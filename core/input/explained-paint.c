@@ -70,7 +70,7 @@ void
 celd_joined_explain_head (CeldJoinedLines *s, const CeldJoinedEnd *e)
 {
   for (int side = 0; side < 2; side++)
-    if (e->side[side] >= 0)
+    if (e->barb_score[side] >= 0)
       {
         double r = BARB_FROM * s->graph.width;
 

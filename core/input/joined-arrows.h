@@ -15,9 +15,10 @@
 
 typedef enum { CELD_END_UNKNOWN, CELD_END_BARE, CELD_END_MARKED } CeldEndMark;
 
-/* An end of a line.  tip: where it is, or would be; way: from there into the line; barb: directions of a head's barbs
- * from the tip, right and left of the line, and how well each agrees with the paint (-1: not to be seen). */
-typedef struct { CeldPoint tip, way, barb[2]; double side[2], score; CeldEndMark mark; } CeldJoinedEnd;
+/* An end of a line.  tip: where it is, or would be; way: from there into the line.  Of a head: the directions of its
+ * barbs from the tip, right and left of the line; how well each agrees with the paint, from 0 to 1 or -1 = it cannot be
+ * seen; and how well the head does.  mark: is there a head or dot? */
+typedef struct { CeldPoint tip, way, barb[2]; double barb_score[2], score; CeldEndMark mark; } CeldJoinedEnd;
 
 /* All points are in coordinates of the mask. */
 typedef struct
@@ -32,7 +33,8 @@ typedef struct
 } CeldJoinedLines;
 
 /* The arrows of a line: none if it is unclear, or one, or two that meet at its corner.  role: of each end, 1 = an arrow
- * ends there, -1 = one begins there, 0 = not known; seen: a head or dot there is beyond doubt. */
+ * ends there, -1 = one begins there, 0 = not known; seen: a head there is beyond doubt.  A dot always is, if the line has
+ * one at either end. */
 typedef struct { CeldPoint nearer[2], farther[2]; int n, role[2]; bool seen[2]; } CeldLineArrows;
 
 /* ------------------------------------------------------------------ joined-lines.c */

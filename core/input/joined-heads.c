@@ -268,7 +268,8 @@ arrows_of (const Heads *s, size_t k)
       bool here = is_marked (s, 2 * k + (size_t) i);
 
       a.role[i] = !a.n ? 0 : here == (s->lines->style != CELD_ARROW_DOT) ? 1 : -1;
-      a.seen[i] = s->lines->style == CELD_ARROW_DOT || (here && fmin (e[i].side[0], e[i].side[1]) >= CLEAR_SIDE);
+      a.seen[i] = s->lines->style == CELD_ARROW_DOT ||
+                  (here && fmin (e[i].barb_score[0], e[i].barb_score[1]) >= CLEAR_SIDE);
     }
   return a;
 }

@@ -76,24 +76,24 @@ celd_joined_find_barbs (const CeldJoinedLines *s, CeldJoinedEnd *e)
     {
       bool hidden = false;
 
-      e->side[side] = -1;
+      e->barb_score[side] = -1;
       for (double angle = LEAST_BARB; angle <= MOST_BARB; angle += BARB_STEP)
         {
           CeldPoint d = turned (e->way, side ? angle : -angle);
           double    score = barb_score (s, e->tip, d, side ? 1 : -1);
 
           hidden |= score < 0 && angle > OWN_ANGLE;
-          if (score > e->side[side])
+          if (score > e->barb_score[side])
             {
-              e->side[side] = score;
+              e->barb_score[side] = score;
               e->barb[side] = d;
             }
         }
-      if (hidden && e->side[side] < HALF_SEEN)
-        e->side[side] = -1; /* the barb may be where other paint lies */
+      if (hidden && e->barb_score[side] < HALF_SEEN)
+        e->barb_score[side] = -1; /* the barb may be where other paint lies */
     }
-  least    = fmin (e->side[0], e->side[1]);
-  most     = fmax (e->side[0], e->side[1]);
+  least    = fmin (e->barb_score[0], e->barb_score[1]);
+  most     = fmax (e->barb_score[0], e->barb_score[1]);
   e->score = least < 0 ? ONE_SIDE * most : least + BETTER_SIDE * most;
 }
 

@@ -253,4 +253,15 @@ is_read (const Answer *answer, const Arrow *a, CeldArrowStyle style)
   return false;
 }
 
+/* How many of n arrows are read the right way round. */
+static inline size_t
+count_read (const Answer *answer, const Arrow *arrows, int n, CeldArrowStyle style)
+{
+  size_t found = 0;
+
+  for (int k = 0; k < n; k++)
+    found += is_read (answer, &arrows[k], style);
+  return found;
+}
+
 #endif

@@ -49,7 +49,7 @@ read_shared (Sharing sharing, int arrows, int pictures, const uint8_t colours[4]
       CeldPaint      paint = blank (SIZE, SIZE);
       Arrow          a[4];
       Answer         answer;
-      size_t         found = 0;
+      size_t         found;
 
       for (int k = 0; k < arrows; k++)
         {
@@ -59,8 +59,7 @@ read_shared (Sharing sharing, int arrows, int pictures, const uint8_t colours[4]
           draw_arrow (&paint, &a[k], colours[k]);
         }
       answer = read_paint (&paint, style);
-      for (int k = 0; k < arrows; k++)
-        found += is_read (&answer, &a[k], style);
+      found  = count_read (&answer, a, arrows, style);
       CHECK (answer.relations.n == found); /* no other */
       CHECK (answer.relations.n + answer.problems.n >= 1);
       right += (int) found;
@@ -87,7 +86,7 @@ read_at_any_angles (int pictures, const uint8_t colours[4][3], double least)
       CeldPaint      paint = blank (SIZE, SIZE);
       Arrow          a[4];
       Answer         answer;
-      size_t         found = 0;
+      size_t         found;
       double         angle = random_between (&state, 0, 6.28);
 
       for (int k = 0; k < 4; k++)
@@ -98,8 +97,7 @@ read_at_any_angles (int pictures, const uint8_t colours[4][3], double least)
           draw_arrow (&paint, &a[k], colours[k]);
         }
       answer = read_paint (&paint, style);
-      for (int k = 0; k < 4; k++)
-        found += is_read (&answer, &a[k], style);
+      found  = count_read (&answer, a, 4, style);
       CHECK (answer.relations.n == found);
       right += (int) found;
       all   += 4;

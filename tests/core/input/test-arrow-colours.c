@@ -84,7 +84,7 @@ two_that_look_like_one (void)
       Arrow     a[4];
       CeldPaint paint = blank (SIZE, SIZE);
       Answer    answer;
-      size_t    found = 0;
+      size_t    found;
 
       a[0] = through (middle, angle + 1.5, length, 1, w, CELD_ARROW_DOT, false);
       a[1] = arrow_at (middle, angle, length, w, 0, 0, DOT, 1.5 * w);
@@ -93,8 +93,7 @@ two_that_look_like_one (void)
       for (int k = 0; k < 4; k++)
         draw_arrow (&paint, &a[k], COLOURS[k < 2 ? k : k - 1]);
       answer = read_paint (&paint, CELD_ARROW_DOT);
-      for (int k = 0; k < 4; k++)
-        found += is_read (&answer, &a[k], CELD_ARROW_DOT);
+      found  = count_read (&answer, a, 4, CELD_ARROW_DOT);
       CHECK (answer.relations.n == found);
       forget (&answer);
       free (paint.data);

@@ -89,7 +89,7 @@ in_a_net (void)
       double         w = random_between (&state, 3, 5);
       Point          place[4];
       Arrow          a[5];
-      size_t         found = 0;
+      size_t         found;
       int            n = 3 + (int) check_random (&state, 3);
       Answer         answer;
 
@@ -104,8 +104,7 @@ in_a_net (void)
           draw_arrow (&paint, &a[k], GREEN);
         }
       answer = read_paint (&paint, style);
-      for (int k = 0; k < n; k++)
-        found += is_read (&answer, &a[k], style);
+      found  = count_read (&answer, a, n, style);
       CHECK (answer.relations.n == found);
       forget (&answer);
       free (paint.data);
@@ -124,7 +123,7 @@ round_a_loop (void)
       CeldPaint paint = blank (SIZE, SIZE);
       Point     place[3];
       Arrow     a[3];
-      size_t    found = 0;
+      size_t    found;
       Answer    answer;
 
       for (int k = 0; k < 3; k++)
@@ -142,8 +141,7 @@ round_a_loop (void)
           draw_arrow (&paint, &a[k], GREEN);
         }
       answer = read_paint (&paint, CELD_ARROW_HEAD);
-      for (int k = 0; k < 3; k++)
-        found += is_read (&answer, &a[k], CELD_ARROW_HEAD);
+      found  = count_read (&answer, a, 3, CELD_ARROW_HEAD);
       CHECK (answer.relations.n == found);
       forget (&answer);
       free (paint.data);
