@@ -17,13 +17,13 @@
 #define DOT_REACH  9   /* ... in this distance, if there is a dot: a short branch may lead to another one */
 #define MOST_MARGIN 0.33 /* part of a line at each of its ends where other paint may be beside it */
 
-#define UNKNOWN -1 /* ... or none has one */
+#define UNCLEAR -1 /* none of them, or it is not known which */
 #define BOTH    2  /* two arrows, which meet at a corner of the line */
 
 typedef struct
 {
   CeldJoinedLines *lines;
-  int             *marked; /* of each line: which end has the head or dot; also UNKNOWN or BOTH */
+  int             *marked; /* of each line: which end has the head or dot; also UNCLEAR or BOTH */
   size_t          *heads;  /* room for all ends of a node */
 } Heads;
 
@@ -100,16 +100,16 @@ marked_end (const CeldJoinedLines *s, size_t k, bool corners)
 
   if (free_end[0] == free_end[1] && e[0].mark == CELD_END_MARKED && e[1].mark == CELD_END_MARKED)
     return corners && (free_end[0] || s->style != CELD_ARROW_DOT) &&
-           celd_stroke_line_corner (&s->graph, k, &corner) ? BOTH : UNKNOWN;
+           celd_stroke_line_corner (&s->graph, k, &corner) ? BOTH : UNCLEAR;
   for (int i = 0; i < 2; i++)
     if (free_end[i] && e[i].mark == CELD_END_MARKED)
-      return !free_end[!i] || e[!i].mark == CELD_END_BARE ? i : UNKNOWN;
+      return !free_end[!i] || e[!i].mark == CELD_END_BARE ? i : UNCLEAR;
     else if (free_end[i] && e[i].mark == CELD_END_BARE)
-      return e[!i].mark == CELD_END_MARKED ? !i : UNKNOWN;
+      return e[!i].mark == CELD_END_MARKED ? !i : UNCLEAR;
   for (int i = 0; i < 2; i++)
     if (e[i].mark == CELD_END_MARKED && e[!i].mark == CELD_END_BARE)
       return i;
-  return UNKNOWN;
+  return UNCLEAR;
 }
 
 /* Decides about lines, and explains the paint of their heads; false if there was nothing new. */
@@ -120,7 +120,7 @@ decide (Heads *s, bool corners)
   bool             any = false;
 
   for (size_t k = 0; k < lines->graph.n_lines; k++)
-    if (s->marked[k] == UNKNOWN && (s->marked[k] = marked_end (lines, k, corners)) != UNKNOWN)
+    if (s->marked[k] == UNCLEAR && (s->marked[k] = marked_end (lines, k, corners)) != UNCLEAR)
       {
         any = true;
         for (size_t i = 2 * k; i < 2 * k + 2 && lines->style != CELD_ARROW_DOT; i++)
@@ -138,7 +138,7 @@ decide_all (Heads *s)
 
   while (decide (s, false) || decide (s, true))
     for (size_t i = 0; i < 2 * lines->graph.n_lines; i++)
-      if (lines->style != CELD_ARROW_DOT && s->marked[i / 2] == UNKNOWN && !celd_joined_is_free (lines, i) &&
+      if (lines->style != CELD_ARROW_DOT && s->marked[i / 2] == UNCLEAR && !celd_joined_is_free (lines, i) &&
           may_be_marked (lines, i))
         {
           lines->end[i].tip = celd_joined_meeting_point (lines, celd_joined_node (lines, i));
@@ -208,7 +208,7 @@ is_plausible (const Heads *s, size_t k)
 
   if (celd_stroke_line_length (line) < (met ? 2 * CELD_HEAD_REACH : CELD_LEAST_LINE) * lines->graph.width)
     return false;
-  if (s->marked[k] != UNKNOWN && celd_stroke_line_corner (&lines->graph, k, &corner))
+  if (s->marked[k] != UNCLEAR && celd_stroke_line_corner (&lines->graph, k, &corner))
     for (int i = 0; i < 2; i++)
       if (s->marked[k] != BOTH ||
           hypot (e[i].tip.x - corner.x, e[i].tip.y - corner.y) < CELD_LEAST_LINE * lines->graph.width)
@@ -237,11 +237,11 @@ place_nodes (Heads *s)
       clear = n < 2 || place_node (s, (int) node);
       for (size_t i = 0; i < 2 * lines->graph.n_lines && !clear; i++)
         if (celd_joined_node (lines, i) == (int) node)
-          s->marked[i / 2] = UNKNOWN;
+          s->marked[i / 2] = UNCLEAR;
     }
   for (size_t k = 0; k < lines->graph.n_lines; k++)
     if (!is_plausible (s, k))
-      s->marked[k] = UNKNOWN;
+      s->marked[k] = UNCLEAR;
 }
 
 /* ------------------------------------------------------------------ arrows */
@@ -251,7 +251,7 @@ static CeldLineArrows
 arrows_of (const Heads *s, size_t k)
 {
   const CeldJoinedEnd *e = &s->lines->end[2 * k];
-  CeldLineArrows     a = { .n = s->marked[k] == UNKNOWN ? 0 : s->marked[k] == BOTH ? 2 : 1 };
+  CeldLineArrows     a = { .n = s->marked[k] == UNCLEAR ? 0 : s->marked[k] == BOTH ? 2 : 1 };
   CeldPoint          corner = e[0].tip;
 
   if (a.n == 2)
@@ -294,7 +294,7 @@ celd_joined_heads_read (CeldJoinedLines *lines, CeldLineArrows *arrows)
   if (status == CELD_OK)
     {
       for (size_t k = 0; k < lines->graph.n_lines; k++)
-        s.marked[k] = UNKNOWN;
+        s.marked[k] = UNCLEAR;
       decide_all (&s);
       place_nodes (&s);
       for (size_t k = 0; k < lines->graph.n_lines; k++)

@@ -12,8 +12,8 @@
 #include <float.h>
 #include <math.h>
 
-#define DIAGONAL    1.41421356f
-#define NOT_REACHED FLT_MAX /* distance of a pixel of the stroke; other pixels of the plane have INFINITY */
+#define DIAGONAL_STEP 1.41421356f
+#define NOT_REACHED   FLT_MAX /* distance of a pixel of the stroke; other pixels of the plane have INFINITY */
 
 /* Pixels in a row of a plane with its border. */
 static size_t
@@ -67,7 +67,7 @@ step_from (CeldArrowStroke *stroke, uint32_t pixel, Rings *rings)
 
   for (int i = 0; i < 8; i++)
     {
-      float *there = &stroke->distance[beside[i]], reached = stroke->distance[pixel] + (i < 4 ? 1 : DIAGONAL);
+      float *there = &stroke->distance[beside[i]], reached = stroke->distance[pixel] + (i < 4 ? 1 : DIAGONAL_STEP);
       size_t ring = (size_t) reached;
 
       if (reached >= *there || *there > NOT_REACHED)
