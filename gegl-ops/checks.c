@@ -8,21 +8,22 @@
 #include "op-parts.h"
 
 #include "buffers.h"
+#include "problems.h"
 #include "translate.h"
 
 /* The drawing as it is, not the lines of a coloured one. */
 static gboolean
 check_lines (CeldOp *op, GeglBuffer *buffer)
 {
-  CeldDrawing drawing = { 0 };
-  double      clarity = 1;
+  CeldDrawing     drawing = { 0 };
+  CeldLineClarity clarity;
 
   if (!celd_op_new_plane (op, &drawing.luma) ||
       (celd_buffer_has_alpha (buffer) && !celd_op_new_plane (op, &drawing.alpha)))
     return FALSE;
   return celd_op_try (op, celd_buffer_read_drawing (buffer, &op->picture, CELD_INK_DARK, &op->quiet, &drawing)) &&
          celd_op_try (op, celd_line_clarity (&drawing, &op->quiet, &clarity)) &&
-         (clarity >= CELD_LEAST_CLARITY ||
+         ((op->operation->unsure_drawing = clarity == CELD_LINES_UNSURE) || clarity == CELD_LINES_CLEAR ||
           celd_op_fail (op, _ ("The drawing looks like a photograph or a painting without lines. If it is a drawing, say "
                                "with 'Ink' what its lines are.")));
 }
@@ -42,6 +43,13 @@ check_ink (CeldOp *op)
                               "or another setting of 'Ink'."));
 }
 
+static gboolean
+warn_if_unsure (CeldOp *op)
+{
+  return !op->operation->unsure_drawing ||
+         celd_op_report_text (op, celd_unsure_lines_text ());
+}
+
 /* Checks a drawing, and whether the session has ink of it, unless it is the last good one. */
 static gboolean
 check (CeldOp *op, const char *pad, const CeldDrawing *drawing, gboolean in_session)
@@ -54,12 +62,14 @@ check (CeldOp *op, const char *pad, const CeldDrawing *drawing, gboolean in_sess
   input = celd_op_add_input (input, drawing->luma.data, size);
   input = celd_op_add_input (input, drawing->alpha.data, size);
   if (input == op->operation->good_drawing)
-    return TRUE;
+    return warn_if_unsure (op);
+  op->operation->good_drawing = 0;
+  op->operation->unsure_drawing = FALSE;
   if ((op->settings.ink == CELD_INK_AUTO && !check_lines (op, celd_op_buffer (op, pad))) ||
       (in_session && !check_ink (op)))
     return FALSE;
   op->operation->good_drawing = input;
-  return TRUE;
+  return warn_if_unsure (op);
 }
 
 gboolean

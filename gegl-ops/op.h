@@ -98,6 +98,7 @@ typedef struct
   CeldSession  *session;           /* of operations that keep results between calls; made by celd_op_set_session */
   CeldKept      kept;
   guint64       good_drawing;      /* the fingerprint of the last drawing that was not refused; 0: there is none */
+  gboolean      unsure_drawing;    /* whether it may be a photograph */
 } CeldOperation;
 
 typedef struct

@@ -47,3 +47,10 @@ celd_problems_append (GString *message, const CeldProblems *problems, const Celd
                                                     "There are %u more messages.", more), more);
     }
 }
+
+const char *
+celd_unsure_lines_text (void)
+{
+  return _ ("The drawing hardly has clear lines: if it is a photograph, draw its outlines on another layer, and choose that "
+            "one as the drawing.");
+}

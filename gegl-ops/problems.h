@@ -21,4 +21,7 @@ char *celd_problem_line (const CeldProblem *problem, const CeldPalette *palette,
 void celd_problems_append (GString *message, const CeldProblems *problems, const CeldPalette *palette,
                            const CeldRelations *relations, const CeldOrder *order);
 
+/* What the artist should know of a drawing with CELD_LINES_UNSURE. */
+const char *celd_unsure_lines_text (void);
+
 #endif

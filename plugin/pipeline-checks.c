@@ -57,14 +57,14 @@ check_scribbles (const CeldPipeline *p, const CeldPipelineInput *input, GError *
 
 /* The drawing as it is, not the lines of a coloured one. */
 static gboolean
-check_drawing (const CeldPipeline *p, const CeldPipelineInput *input, GError **error)
+check_drawing (CeldPipeline *p, const CeldPipelineInput *input, GError **error)
 {
   const CeldPipelineLayer *layer = &input->layer[CELD_LAYER_DRAWING];
   GeglRectangle            rect = image_rectangle (input, layer);
   gboolean                 alpha = celd_buffer_has_alpha (layer->buffer);
   CeldHost                 host = { NULL, celd_gegl_each, NULL };
   CeldDrawing              drawing = { .luma = celd_pipeline_new_plane (p) };
-  double                   clarity = 1;
+  CeldLineClarity          clarity;
   CeldStatus               status = CELD_NO_MEMORY;
 
   if (alpha)
@@ -75,18 +75,20 @@ check_drawing (const CeldPipeline *p, const CeldPipelineInput *input, GError **e
     status = celd_line_clarity (&drawing, &host, &clarity);
   g_free (drawing.luma.data);
   g_free (drawing.alpha.data);
+  p->unsure = status == CELD_OK && clarity == CELD_LINES_UNSURE;
   return celd_pipeline_try (status, error) &&
-         (clarity >= CELD_LEAST_CLARITY ||
+         (clarity != CELD_LINES_NONE ||
           celd_pipeline_fail (error, _ ("The layer with the drawing looks like a photograph or a painting without "
                                         "lines. If it is a drawing, say with the setting 'Ink' what its lines are.")));
 }
 
 gboolean
-celd_pipeline_check_layers (const CeldPipeline *p, const CeldPipelineInput *input, guint layers, GError **error)
+celd_pipeline_check_layers (CeldPipeline *p, const CeldPipelineInput *input, guint layers, GError **error)
 {
   gboolean scribbles = layers & 1u << CELD_LAYER_SCRIBBLES && input->layer[CELD_LAYER_SCRIBBLES].buffer;
   gboolean drawing = layers & 1u << CELD_LAYER_DRAWING && p->settings.ink == CELD_INK_AUTO;
 
+  p->unsure = p->unsure && !(layers & 1u << CELD_LAYER_DRAWING) && !p->settings.flats;
   if (!check_numbers (input, layers, error))
     return FALSE;
   if (p->settings.flats)

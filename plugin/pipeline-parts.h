@@ -22,6 +22,7 @@ struct CeldPipeline
   CeldPlane        relief_depth;      /* of the relief: its heights as depth in [0,1] */
   CeldScene       *relief;            /* of these two; NULL: not made */
   double           relief_height;     /* pixels from its farthest point to its nearest */
+  gboolean         unsure;            /* whether the drawing may be a photograph */
   char            *note;              /* for the artist, beside the problems of the session; NULL: nothing */
 };
 
@@ -51,9 +52,8 @@ bool celd_pipeline_report (void *report, double done);
 gboolean celd_pipeline_report_steps (gpointer report, double done, const char *step);
 
 /* TRUE unless scribbles or the drawing are a photograph, or exchanged; else *error has a sentence for the artist.  Of
- * these two, those are examined that are among `layers`, as bits. */
-gboolean celd_pipeline_check_layers (const CeldPipeline *p, const CeldPipelineInput *input, guint layers,
-                                     GError **error);
+ * these two, those are examined that are among `layers`, as bits.  Sets p->unsure. */
+gboolean celd_pipeline_check_layers (CeldPipeline *p, const CeldPipelineInput *input, guint layers, GError **error);
 /* TRUE if a layer can be depth or levels, which are grey. */
 gboolean celd_pipeline_check_grey (const CeldPipelineLayer *layer, GError **error);
 

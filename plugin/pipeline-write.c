@@ -209,6 +209,8 @@ celd_pipeline_problems (CeldPipeline *p)
 
   celd_problems_append (message, celd_session_problems (p->session), celd_session_palette (p->session),
                         celd_session_relations (p->session), p->order);
+  if (p->unsure)
+    g_string_append_printf (message, "%s%s", message->len ? "\n" : "", celd_unsure_lines_text ());
   if (p->note)
     g_string_append_printf (message, "%s%s", message->len ? "\n" : "", p->note);
   return g_string_free (message, message->len == 0);
@@ -236,6 +238,8 @@ celd_pipeline_problem_list (CeldPipeline *p)
       told.text = celd_problem_line (problem, celd_session_palette (p->session), relations, p->order);
       g_array_append_val (list, told);
     }
+  if (p->unsure)
+    g_array_append_val (list, ((CeldPipelineProblem) { g_strdup (celd_unsure_lines_text ()), -1, -1 }));
   if (p->note)
     g_array_append_val (list, ((CeldPipelineProblem) { g_strdup (p->note), -1, -1 }));
   return list;

@@ -48,8 +48,8 @@ clarity_step (const CeldHost *host, Results *r)
 {
   enum { SIDE = 64 };
   static float luma[SIDE * SIDE];
-  CeldDrawing  drawing = { .luma = { SIDE, SIDE, SIDE, luma } };
-  double       clarity;
+  CeldDrawing     drawing = { .luma = { SIDE, SIDE, SIDE, luma } };
+  CeldLineClarity clarity;
 
   (void) r;
   for (int i = 0; i < SIDE * SIDE; i++)

@@ -25,12 +25,16 @@ CELD_API void celd_luma (const float *rgba, size_t n, float *luma, float *alpha)
 CELD_API CeldStatus celd_coloured_lines (const CeldPaint *art, CeldInkMode mode, const CeldHost *host,
                                          CeldDrawing *drawing);
 
-/* How clearly lines differ from paper, 0 .. 1: 1 for a blank page and for one that is too small to tell.  `drawing` is
- * as it was painted, before celd_coloured_lines.  For hosts, which refuse photographs: below CELD_LEAST_CLARITY it is a
- * photograph or a painting without lines, from CELD_CLEAR_LINES on a drawing, between them either. */
-#define CELD_LEAST_CLARITY 0.74 /* measured: core/image/line-clarity.c */
-#define CELD_CLEAR_LINES   0.78
-CELD_API CeldStatus celd_line_clarity (const CeldDrawing *drawing, const CeldHost *host, double *clarity);
+/* How clearly lines differ from paper: a blank page, and one that is too small to tell, counts as clear.  For hosts, which
+ * refuse what has none, and warn of what is unsure.  `drawing` is as it was painted, before celd_coloured_lines. */
+typedef enum
+{
+  CELD_LINES_CLEAR,
+  CELD_LINES_UNSURE, /* a photograph or a painting, or a drawing with faint lines on grain or with much soft shading */
+  CELD_LINES_NONE,   /* a photograph, or a painting without lines */
+} CeldLineClarity;
+
+CELD_API CeldStatus celd_line_clarity (const CeldDrawing *drawing, const CeldHost *host, CeldLineClarity *clarity);
 
 /* Makes the ink of a drawing: composites it on paper, finds its polarity (with CELD_INK_AUTO), and normalises contrast
  * by the paper around each pixel, so that uneven paper becomes 1 and grey pencil 0.  `ink` has the drawing's size and

@@ -10,15 +10,15 @@
 bool
 cli_check_drawing (const char *path, const CeldDrawing *drawing, bool quiet)
 {
-  double clarity;
+  CeldLineClarity clarity;
 
   if (!cli_check (celd_line_clarity (drawing, NULL, &clarity)))
     return false;
-  if (clarity < CELD_LEAST_CLARITY)
+  if (clarity == CELD_LINES_NONE)
     return cli_error (_ ("\"%s\" looks like a photograph or a painting without lines; if it is a drawing, say what its "
                          "lines are, such as --ink dark."), path);
-  if (clarity < CELD_CLEAR_LINES && !quiet)
-    cli_say (_ ("\"%s\" hardly has clear lines: if it is no drawing, the result makes no sense."), path);
+  if (clarity == CELD_LINES_UNSURE && !quiet)
+    cli_say (_ ("\"%s\" hardly has clear lines: if it is a photograph, draw its outlines, and give these as the drawing."), path);
   return true;
 }
 

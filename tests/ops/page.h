@@ -58,6 +58,21 @@ surface_at (int i, int channel)
   return (float) (0.5 + 0.12 * sum);
 }
 
+/* The page as a faint drawing in strong grain, which may be a photograph. */
+static inline float
+faint_at (int i)
+{
+  uint32_t hash = (uint32_t) i;
+  float    grain = 0;
+
+  for (int k = 0; k < 3; k++)
+    {
+      hash = (hash ^ hash >> 15) * 2246822519u + 2654435769u;
+      grain += (float) (hash >> 24) / 255 - 0.5f;
+    }
+  return 0.8f - 0.2f * (1 - page_luma[i]) + 0.11f * grain;
+}
+
 static inline void
 paint_line (uint8_t *paint, int x0, int y0, int x1, int y1, int thickness, uint32_t rgb)
 {

@@ -54,6 +54,27 @@ photographs_are_no_drawings (void)
   g_object_unref (photograph);
 }
 
+/* What may be a photograph is used, with a warning. */
+static void
+unclear_lines_are_told (void)
+{
+  static float faint[PIXELS];
+  GeglBuffer  *page;
+
+  for (int i = 0; i < PIXELS; i++)
+    faint[i] = faint_at (i);
+  page = page_buffer ("Y' u8", "Y' float", faint);
+  for (size_t i = 0; i < G_N_ELEMENTS (finders); i++)
+    {
+      be_quiet ();
+      operate (finders[i], (Pads) { { page, scribbles, arrows } }, "RGBA float", result, NULL);
+      CHECK (times_said == 1 && warnings == 0 && SAYS ("hardly has clear lines"));
+      gegl_buffer_get (page, NULL, 1, babl_format ("RGBA float"), wanted, GEGL_AUTO_ROWSTRIDE, GEGL_ABYSS_NONE);
+      CHECK (difference (result, wanted, 4 * PIXELS) > 0.01);
+    }
+  g_object_unref (page);
+}
+
 /* Also for single steps, which have an answer for a blank page; art may be a photograph. */
 static void
 photographs_have_no_steps (void)
@@ -210,6 +231,7 @@ main (int argc, char **argv)
   make_page ();
   start_to_listen ();
   RUN (photographs_are_no_drawings);
+  RUN (unclear_lines_are_told);
   RUN (photographs_have_no_steps);
   RUN (photographs_are_no_scribbles);
   RUN (exchanged_layers_are_noticed);

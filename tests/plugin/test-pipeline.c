@@ -393,6 +393,41 @@ problems_are_told (void)
   celd_pipeline_free (pipeline);
 }
 
+/* What may be a photograph is used, with a warning, until the artist says what its lines are, or draws it. */
+static void
+unclear_lines_are_told (void)
+{
+  static float      faint[PIXELS];
+  CeldPipelineInput input = page_input ();
+  CeldPipeline     *pipeline;
+  GArray           *list;
+  char             *text;
+
+  for (int i = 0; i < PIXELS; i++)
+    faint[i] = faint_at (i);
+  input.layer[CELD_LAYER_DRAWING].buffer = page_buffer ("Y' u8", "Y' float", faint);
+  pipeline = celd_pipeline_new (&input, NULL);
+  text = celd_pipeline_problems (pipeline);
+  CHECK (text && strstr (text, "hardly has clear lines"));
+  g_free (text);
+  list = celd_pipeline_problem_list (pipeline);
+  CHECK (list->len == 1 && strstr (g_array_index (list, CeldPipelineProblem, 0).text, "hardly has clear lines"));
+  g_array_unref (list);
+  input.settings.ink = CELD_INK_DARK;
+  CHECK (celd_pipeline_update (pipeline, &input, 0, NULL));
+  CHECK (celd_pipeline_problems (pipeline) == NULL);
+  input.settings.ink = CELD_INK_AUTO;
+  CHECK (celd_pipeline_update (pipeline, &input, 0, NULL));
+  text = celd_pipeline_problems (pipeline);
+  CHECK (text && strstr (text, "hardly has clear lines"));
+  g_free (text);
+  g_object_unref (input.layer[CELD_LAYER_DRAWING].buffer);
+  input.layer[CELD_LAYER_DRAWING].buffer = drawing;
+  CHECK (celd_pipeline_update (pipeline, &input, 1u << CELD_LAYER_DRAWING, NULL));
+  CHECK (celd_pipeline_problems (pipeline) == NULL);
+  celd_pipeline_free (pipeline);
+}
+
 int
 main (void)
 {
@@ -413,6 +448,7 @@ main (void)
   RUN (only_numbers_are_paint);
   RUN (only_numbers_are_depth);
   RUN (problems_are_told);
+  RUN (unclear_lines_are_told);
   drop_page ();
   celd_palette_clear (&palette);
   celd_relations_clear (&relations);
