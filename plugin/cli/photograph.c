@@ -18,7 +18,8 @@ cli_check_drawing (const char *path, const CeldDrawing *drawing, bool quiet)
     return cli_error (_ ("\"%s\" looks like a photograph or a painting without lines; if it is a drawing, say what its "
                          "lines are, such as --ink dark."), path);
   if (clarity == CELD_LINES_UNSURE && !quiet)
-    cli_say (_ ("\"%s\" hardly has clear lines: if it is a photograph, draw its outlines, and give these as the drawing."), path);
+    cli_say (_ ("\"%s\" hardly has clear lines: if it is a photograph, draw its outlines, and give these as the "
+                "drawing."), path);
   return true;
 }
 

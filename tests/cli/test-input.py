@@ -435,7 +435,7 @@ class Photographs(Test):
         for x in range(0, 400, 60):
             ImageDraw.Draw(page).line([(x, 0), (x - 80, 240)], fill=0, width=4)
         lines = np.asarray(page, float) / 255
-        faint = 0.65 + 0.15 * lines + np.random.default_rng(5).normal(0, 0.055, lines.shape)
+        faint = 0.4 + 0.3 * lines + np.random.default_rng(5).normal(0, 0.11, lines.shape)
         Image.fromarray((255 * faint.clip(0, 1)).astype(np.uint8)).save(self.path('faint.png'))
         words = ('segment', 'faint.png', '--scribbles', 'strokes.png', '--labels', 'l.png')
         self.assertIn('"faint.png" hardly has clear lines', self.celdepth(*words))
