@@ -123,6 +123,22 @@ levels_lattice_step (const CeldHost *host, Results *r)
   return status;
 }
 
+/* A handle between two keys. */
+static CeldStatus
+handle_keys_step (const CeldHost *host, Results *r)
+{
+  CeldHandle    item[2] = { { 10, 10, 10, 10, 0 }, { 10, 10, 20, 12, 1 } };
+  CeldHandleKey key[2] = { { 0, { &item[0], 1 } }, { 3, { &item[1], 1 } } };
+  CeldHandles   handles = { 0 };
+  CeldStatus    status = celd_handles_between (key, 2, 1, &handles);
+
+  (void) host;
+  if (status == CELD_OK)
+    r->pixels->plane[0] = (float) handles.item[0].to_x;
+  celd_handles_clear (&handles);
+  return status;
+}
+
 /* A puppet of the levels, with handles as text and as paint, in a pose. */
 static CeldStatus
 deform_step (const CeldHost *host, Results *r)
@@ -333,6 +349,7 @@ const Step motion_steps[] = {
   { "lattice", lattice_step, NULL, true },
   { "lattice of levels", levels_lattice_step, NULL, true },
   { "compose", compose_step, NULL, true },
+  { "handles between keys", handle_keys_step, NULL, false },
   { "deform", deform_step, NULL, true },
   { "deform levels", deform_levels_step, NULL, true },
   { "layers of a pose", posed_layers_step, NULL, true },

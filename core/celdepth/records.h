@@ -331,6 +331,9 @@ typedef struct { CeldHandle *item; size_t n; } CeldHandles;
 
 CELD_API void celd_handles_clear (CeldHandles *handles);
 
+/* A frame of an animation whose handles are given. */
+typedef struct { int frame; CeldHandles handles; } CeldHandleKey;
+
 /* A drawing that can be deformed: its layers, embedded into one lattice. */
 typedef struct CeldPuppet CeldPuppet;
 

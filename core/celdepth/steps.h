@@ -510,6 +510,11 @@ CELD_API CeldStatus celd_handles_parse (const char *text, CeldHandles *handles, 
 CELD_API CeldStatus celd_handles_read (const CeldPaint *paint, CeldArrowStyle style, const CeldHost *host,
                                        CeldHandles *handles, CeldProblems *problems);
 
+/* The handles of a frame from those of n keys, which are in the order of frames and have the same handles: between two
+ * keys each goes straight, starting and stopping gently; before the first and after the last key it rests.  `handles`
+ * is replaced.  CELD_BAD_VALUE if n is 0, or if the keys around the frame have different numbers of handles. */
+CELD_API CeldStatus celd_handles_between (const CeldHandleKey *key, size_t n, int frame, CeldHandles *handles);
+
 /* Makes a puppet of completed layers at rest: a square lattice for each, joined to others where depth is continuous,
  * that is, where levels are equal or no ink of the drawing lies between them, nor with settings->hold_gaps a gap in a
  * contour, unless `borders` (may be NULL) has ink there and `ink` has not; with any cracks of celd_cracks_find (`cracks`
@@ -533,6 +538,8 @@ CELD_API CeldStatus celd_puppet_pose (CeldPuppet *puppet, const CeldHandle *hand
 /* Says what is wrong with a pose and what to do, one sentence on each line, cut to `size` bytes; "" if nothing is.
  * Stretching is reported from twice the length on.  `translate` may be NULL. */
 CELD_API void       celd_pose_text   (const CeldPoseReport *report, CeldTranslate translate, char *text, size_t size);
+/* Puts what is worse in one report into another, which then tells the worst of several poses. */
+CELD_API void       celd_pose_worst  (const CeldPoseReport *report, CeldPoseReport *worst);
 
 /* Draws a puppet in its pose, with straight alpha in the colour space of the layers: parts from back to front by their
  * levels, changed by the depth of handles near them.  `levels` (may be NULL) gets the level of the nearest part that

@@ -53,6 +53,29 @@ celd_pose_describe (const CeldLattice *lattice, CeldPoseReport *report)
 }
 
 void
+celd_pose_worst (const CeldPoseReport *report, CeldPoseReport *worst)
+{
+  if (report->outside > worst->outside)
+    {
+      worst->outside   = report->outside;
+      worst->outside_x = report->outside_x;
+      worst->outside_y = report->outside_y;
+    }
+  if (report->folded > worst->folded)
+    {
+      worst->folded   = report->folded;
+      worst->folded_x = report->folded_x;
+      worst->folded_y = report->folded_y;
+    }
+  if (report->stretch > worst->stretch)
+    {
+      worst->stretch   = report->stretch;
+      worst->stretch_x = report->stretch_x;
+      worst->stretch_y = report->stretch_y;
+    }
+}
+
+void
 celd_pose_text (const CeldPoseReport *report, CeldTranslate translate, char *text, size_t size)
 {
   size_t used = 0;

@@ -417,17 +417,13 @@ bool cli_uses_write (CeldSession *session, const CliOptions *options, const Celd
 
 /* ------------------------------------------------------------------ deform-handles.c, deform-keys.c */
 
-/* A frame of an animation whose handles are given; those between are interpolated. */
-typedef struct { int frame; CeldHandles handles; } CliHandleKey;
-typedef struct { CliHandleKey *item; size_t n; } CliHandleKeys;
+typedef struct { CeldHandleKey *item; size_t n; } CliHandleKeys;
 
 /* Reads the handles that the options name: from text, a text file, a painted layer of the size of `layers`. */
 bool cli_handles_read (const CliOptions *options, CliLayers *layers, CliRun *run, CeldHandles *handles);
 /* Reads --keys. */
 bool cli_handle_keys_read  (const char *path, CliHandleKeys *keys);
 void cli_handle_keys_clear (CliHandleKeys *keys);
-/* Interpolates the handles of a frame, with eases at keys; free them with celd_handles_clear. */
-bool cli_handle_keys_at    (const CliHandleKeys *keys, int frame, CeldHandles *handles);
 
 /* ------------------------------------------------------------------ deform-layers.c */
 

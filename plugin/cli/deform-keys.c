@@ -78,7 +78,7 @@ read_handles (const char *path, size_t key, JsonNode *node, CeldHandles *handles
 }
 
 static bool
-read_key (const char *path, size_t k, JsonNode *node, CliHandleKey *key)
+read_key (const char *path, size_t k, JsonNode *node, CeldHandleKey *key)
 {
   static const char *const members[] = { "frame", "handles", NULL };
   JsonObject              *object = JSON_NODE_HOLDS_OBJECT (node) ? json_node_get_object (node) : NULL;
@@ -97,7 +97,7 @@ read_key (const char *path, size_t k, JsonNode *node, CliHandleKey *key)
 
 /* Whether a key follows on the one before it: later, with handles of the same places. */
 static bool
-check_next (const char *path, size_t k, const CliHandleKey *key)
+check_next (const char *path, size_t k, const CeldHandleKey *key)
 {
   const CeldHandles *a = &key[-1].handles, *b = &key->handles;
 
@@ -128,7 +128,7 @@ read_root (const char *path, JsonNode *root, CliHandleKeys *keys)
   n     = array ? json_array_get_length (array) : 0;
   if (!n)
     return cli_error ("%s: \"keys\" must be an array of at least one key.", path);
-  keys->item = g_new0 (CliHandleKey, n);
+  keys->item = g_new0 (CeldHandleKey, n);
   for (guint k = 0; k < n; k++)
     {
       keys->n++;
@@ -162,35 +162,4 @@ cli_handle_keys_clear (CliHandleKeys *keys)
     celd_handles_clear (&keys->item[k].handles);
   g_free (keys->item);
   *keys = (CliHandleKeys) { 0 };
-}
-
-/* ------------------------------------------------------------------ frames between keys */
-
-static double
-mix (double a, double b, double t)
-{
-  return t > 0 ? t < 1 ? a + t * (b - a) : b : a;
-}
-
-bool
-cli_handle_keys_at (const CliHandleKeys *keys, int frame, CeldHandles *handles)
-{
-  const CliHandleKey *a = keys->item, *b;
-  size_t        n = a->handles.n;
-  double        t;
-
-  while (a + 1 < keys->item + keys->n && a[1].frame <= frame)
-    a++;
-  b = a + 1 < keys->item + keys->n ? a + 1 : a;
-  t = a == b || frame <= a->frame ? 0 : (double) (frame - a->frame) / (b->frame - a->frame);
-  t = t * t * (3 - 2 * t); /* eases in and out */
-  *handles = (CeldHandles) { n ? calloc (n, sizeof *handles->item) : NULL, n };
-  for (size_t i = 0; i < n && handles->item; i++)
-    {
-      const CeldHandle *p = &a->handles.item[i], *q = &b->handles.item[i];
-
-      handles->item[i] = (CeldHandle) { p->x, p->y, mix (p->to_x, q->to_x, t), mix (p->to_y, q->to_y, t),
-                                        mix (p->depth, q->depth, t) };
-    }
-  return !n || handles->item;
 }

@@ -60,16 +60,16 @@ is_linear (const CliOptions *options)
 static bool
 keys_of_handles (Deformation *d, CliLayers *input)
 {
-  CliHandleKey *end;
-  CeldHandles   rest;
+  CeldHandleKey *end;
+  CeldHandles    rest;
 
-  d->keys = (CliHandleKeys) { g_new0 (CliHandleKey, 2), 2 };
+  d->keys = (CliHandleKeys) { g_new0 (CeldHandleKey, 2), 2 };
   end        = &d->keys.item[1];
   end->frame = d->options->frames - 1;
   if (!cli_handles_read (d->options, input, &d->run, &end->handles))
     return false;
-  if (!cli_handle_keys_at (&(CliHandleKeys) { end, 1 }, 0, &rest))
-    return cli_check (CELD_NO_MEMORY);
+  if (!cli_check (celd_handles_between (end, 1, 0, &rest)))
+    return false;
   for (size_t i = 0; i < rest.n; i++)
     rest.item[i] = (CeldHandle) { rest.item[i].x, rest.item[i].y, rest.item[i].x, rest.item[i].y, 0 };
   d->keys.item[0].handles = rest;
@@ -98,46 +98,19 @@ read_input (Deformation *d)
 
 /* ------------------------------------------------------------------ pictures */
 
-/* Keeps the worse of two reports, item by item. */
-static void
-take_report (const CeldPoseReport *report, CeldPoseReport *worst)
-{
-  CeldPoseReport before = *worst;
-
-  *worst = *report;
-  if (before.outside >= report->outside)
-    {
-      worst->outside   = before.outside;
-      worst->outside_x = before.outside_x;
-      worst->outside_y = before.outside_y;
-    }
-  if (before.folded >= report->folded)
-    {
-      worst->folded   = before.folded;
-      worst->folded_x = before.folded_x;
-      worst->folded_y = before.folded_y;
-    }
-  if (before.stretch >= report->stretch)
-    {
-      worst->stretch   = before.stretch;
-      worst->stretch_x = before.stretch_x;
-      worst->stretch_y = before.stretch_y;
-    }
-}
-
 /* Poses the puppet for a frame. */
 static CeldStatus
 pose (Deformation *d, int frame)
 {
   CeldHost       quiet = { NULL, d->run.host.each, d->run.host.data };
-  CeldHandles    handles;
+  CeldHandles    handles = { 0 };
   CeldPoseReport report = { 0 };
-  CeldStatus     status = CELD_NO_MEMORY;
+  CeldStatus     status = celd_handles_between (d->keys.item, d->keys.n, frame, &handles);
 
-  if (cli_handle_keys_at (&d->keys, frame, &handles))
+  if (status == CELD_OK)
     status = celd_puppet_pose (d->puppet, handles.item, handles.n, &quiet, &report);
   celd_handles_clear (&handles);
-  take_report (&report, &d->worst);
+  celd_pose_worst (&report, &d->worst);
   return status;
 }
 

@@ -99,6 +99,48 @@ blank_paint_has_no_handles (void)
   celd_handles_clear (&h);
 }
 
+/* A handle and a pin in three keys, the last of which follows at once: where they are in frames between. */
+static void
+handles_go_gently_from_key_to_key (void)
+{
+  CeldHandle    item[3][2] = { { { 10, 20, 10, 20, 0 }, { 1, 2, 1, 2, 0 } },
+                               { { 10, 20, 50, 100, 2 }, { 1, 2, 1, 2, 0 } },
+                               { { 10, 20, 0, 0, -1 }, { 1, 2, 1, 2, 0 } } };
+  CeldHandleKey key[3] = { { 4, { item[0], 2 } }, { 8, { item[1], 2 } }, { 9, { item[2], 2 } } };
+  struct { int frame; double x, y, depth; } expected[] = {
+    { 0, 10, 20, 0 }, { 4, 10, 20, 0 }, { 5, 16.25, 32.5, 0.3125 }, { 6, 30, 60, 1 }, { 7, 43.75, 87.5, 1.6875 },
+    { 8, 50, 100, 2 }, { 9, 0, 0, -1 }, { 99, 0, 0, -1 },
+  };
+
+  for (size_t i = 0; i < sizeof expected / sizeof *expected; i++)
+    {
+      CeldHandles h = { 0 };
+
+      CHECK (celd_handles_between (key, 3, expected[i].frame, &h) == CELD_OK && h.n == 2);
+      NEAR (h.item[0].x, 10, 0);
+      NEAR (h.item[0].y, 20, 0);
+      NEAR (h.item[0].to_x, expected[i].x, 0);
+      NEAR (h.item[0].to_y, expected[i].y, 0);
+      NEAR (h.item[0].depth, expected[i].depth, 0);
+      CHECK (!memcmp (&h.item[1], &item[0][1], sizeof (CeldHandle)));
+      celd_handles_clear (&h);
+    }
+}
+
+static void
+keys_that_do_not_fit_are_refused (void)
+{
+  CeldHandle    item[2] = { { 10, 20, 10, 20, 0 }, { 1, 2, 1, 2, 0 } };
+  CeldHandleKey key[2] = { { 0, { item, 2 } }, { 4, { item, 1 } } };
+  CeldHandles   h = { 0 };
+
+  CHECK (celd_handles_between (key, 0, 0, &h) == CELD_BAD_VALUE && !h.item);
+  CHECK (celd_handles_between (key, 2, 1, &h) == CELD_BAD_VALUE && !h.item);
+  key[0].handles.n = key[1].handles.n = 0;
+  CHECK (celd_handles_between (key, 2, 1, &h) == CELD_OK && h.n == 0);
+  celd_handles_clear (&h);
+}
+
 int
 main (void)
 {
@@ -106,5 +148,7 @@ main (void)
   RUN (wrong_text_says_where);
   RUN (paint_is_read);
   RUN (blank_paint_has_no_handles);
+  RUN (handles_go_gently_from_key_to_key);
+  RUN (keys_that_do_not_fit_are_refused);
   return DONE;
 }

@@ -454,6 +454,22 @@ poses_are_reported_with_places (void)
   layer_scene_close (&s);
 }
 
+/* Of two poses the worse of each kind counts, with its place; the first of two that are as bad. */
+static void
+the_worst_of_several_poses_is_kept (void)
+{
+  CeldPoseReport worst = { 0 };
+  CeldPoseReport first = { .outside = 2, .folded = 1, .stretch = 3, .outside_x = 1, .folded_x = 2, .stretch_x = 3 };
+  CeldPoseReport next = { .outside = 2, .folded = 4, .stretch = 2.5, .outside_x = 7, .folded_x = 8, .stretch_x = 9 };
+
+  celd_pose_worst (&first, &worst);
+  CHECK (!memcmp (&worst, &first, sizeof worst));
+  celd_pose_worst (&next, &worst);
+  CHECK (worst.outside == 2 && worst.outside_x == 1);
+  CHECK (worst.folded == 4 && worst.folded_x == 8);
+  CHECK (worst.stretch == 3 && worst.stretch_x == 3);
+}
+
 /* Levels of a picture come back as they are, and go on in their last step where handles move parts beyond them. */
 static void
 levels_are_those_of_the_picture (void)
@@ -515,6 +531,7 @@ main (void)
   RUN (layers_are_where_handles_put_them);
   RUN (a_pose_has_layers);
   RUN (poses_are_reported_with_places);
+  RUN (the_worst_of_several_poses_is_kept);
   RUN (levels_are_those_of_the_picture);
   RUN (wrong_sizes_are_refused);
   return DONE;
