@@ -70,6 +70,35 @@ returned_step (const CeldHost *host, Results *r)
   return status;
 }
 
+/* The labels, rated as if the second side had them a row higher. */
+static CeldStatus
+rate_blended_step (const CeldHost *host, Results *r)
+{
+  CeldLabels              one = { W, H - 1, W, label_pixels.labels + W }, other = { W, H - 1, W, label_pixels.labels };
+  const CeldLabels *const side[2] = { &one, &other };
+  double                  half[9], sure[9];
+  const double *const     side_sure[2] = { half, half };
+  CeldStatus              status;
+
+  (void) host;
+  for (int l = 0; l < 9; l++)
+    half[l] = 0.5;
+  status = celd_rate_blended (side, side_sure, &one, label_palette.n, sure);
+  for (size_t l = 1; status == CELD_OK && l <= label_palette.n; l++)
+    r->pixels->plane[l] = (float) sure[l];
+  return status;
+}
+
+/* The labels in a palette that has no background yet. */
+static CeldStatus
+join_step (const CeldHost *host, Results *r)
+{
+  CeldLabels labels = labels_of (&label_pixels), joined = labels_of (r->pixels);
+
+  (void) host;
+  return celd_join_labels (&labels, &label_palette, &r->palette, &joined);
+}
+
 /* Labels that all moved a row up, and what is noted of them. */
 static CeldStatus
 notes_step (const CeldHost *host, Results *r)
@@ -345,6 +374,8 @@ const Step motion_steps[] = {
   { "propagate", propagate_step, NULL, true },
   { "blend of two keys", blend_step, NULL, true },
   { "labels that came back", returned_step, NULL, false },
+  { "ratings of blended labels", rate_blended_step, NULL, false },
+  { "labels of two keys", join_step, &seed_palette, false },
   { "notes of regions", notes_step, NULL, false },
   { "lattice", lattice_step, NULL, true },
   { "lattice of levels", levels_lattice_step, NULL, true },

@@ -466,6 +466,16 @@ CELD_API CeldStatus celd_compose_levels (const CeldLevelArt piece[2], const Celd
 CELD_API void       celd_composition_map (const CeldComposition *composition, size_t fragment, double x, double y,
                                           double place[2]);
 
+/* Gives the labels of a key drawing the numbers that its regions have in the palette of all keys of a clip, to which new
+ * ones are added: regions of one colour are one, and all backgrounds are.  `joined` may be `labels`.  CELD_BAD_VALUE for
+ * labels beyond the palette. */
+CELD_API CeldStatus celd_join_labels (const CeldLabels *labels, const CeldPalette *palette, CeldPalette *all,
+                                      CeldLabels *joined);
+/* Names the ends of a relation by the colours of the regions at their places, so that it holds in the other keys, too.
+ * False, and the relation as it was, if an end is outside or in a transparent background, or if both have one colour. */
+CELD_API bool       celd_relation_by_colour (const CeldLabels *labels, const CeldPalette *palette,
+                                             CeldRelation *relation);
+
 /* Carries the labels of a frame of an animation to another frame of the same size, in which parts have moved; section
  * 3.4 of the paper.  `source` has the labels of all pixels of the frame whose ink is `ink`; `background` (0: none) is
  * the label that does not move where it touches the edge of the picture.  `labels` gets seeds for celd_segment of the
@@ -499,6 +509,11 @@ CELD_API CeldStatus celd_note_regions (const CeldPlane *ink, const CeldLabels *b
  * CELD_BAD_VALUE if there are more than 65534 labels. */
 CELD_API CeldStatus celd_blend_propagated (const CeldPropagated side[2], const CeldHost *host, CeldLabels *labels,
                                            CeldPlane *certainty);
+/* How sure each of these blended labels is, from side_sure[k][1] to side_sure[k][n] of celd_rate_returned on each side:
+ * sure[1] to sure[n] get the better of both, times the share of the label's pixels that this side has, but no more than
+ * the share of pixels in which both agree; sure[0] is left alone.  CELD_BAD_VALUE for labels beyond n. */
+CELD_API CeldStatus celd_rate_blended (const CeldLabels *const side[2], const double *const side_sure[2],
+                                       const CeldLabels *labels, size_t n, double *sure);
 
 /* Reads handles for celd_puppet_pose and appends them:  handles = handle { (";" | newline) handle },  handle = x "," y
  * [ "->" x "," y ] [ "^" levels ].  Without an arrow a handle is a pin, which stays where it is.  On CELD_BAD_RELATION

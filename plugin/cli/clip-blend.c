@@ -62,37 +62,14 @@ labels_before (const CliMotion *motion, const CeldHost *host, size_t frame, cons
   return good;
 }
 
-/* How sure each label is: what the better of both sides says of it, times the share of its pixels that it has there; and
- * no more than the two agree, since one of them is wrong where they do not. */
-static double *
-sure_of_both (const CliMotion *motion, const Sides *sides, const CliFrameState kept[2], const CeldLabels *labels)
+static bool
+rate_labels (const CliMotion *motion, const Sides *sides, const CliFrameState kept[2], CliFrameState *state)
 {
-  typedef struct { size_t n, same[2], both, either; } Count;
-  Count  *count = g_new0 (Count, motion->palette.n + 1);
-  double *sure = g_new0 (double, motion->palette.n + 1);
+  const CeldLabels *const labels[2] = { &sides->labels[0], &sides->labels[1] };
+  const double *const     sure[2] = { kept[0].sure, kept[1].sure };
 
-  for (size_t i = 0; i < (size_t) labels->width * (size_t) labels->height; i++)
-    {
-      uint32_t first = sides->labels[0].data[i], second = sides->labels[1].data[i];
-
-      count[labels->data[i]].n++;
-      count[labels->data[i]].same[0] += first == labels->data[i];
-      count[labels->data[i]].same[1] += second == labels->data[i];
-      count[first].both += first == second;
-      count[first].either++;
-      count[second].either += first != second;
-    }
-  for (size_t l = 1; l <= motion->palette.n; l++)
-    {
-      const Count *c = &count[l];
-
-      for (int k = 0; k < 2; k++)
-        sure[l] = MAX (sure[l], kept[k].sure[l] * (c->n ? (double) c->same[k] / (double) c->n : 1));
-      if (c->either)
-        sure[l] = MIN (sure[l], (double) c->both / (double) c->either);
-    }
-  g_free (count);
-  return sure;
+  state->sure = g_new0 (double, motion->palette.n + 1);
+  return cli_check (celd_rate_blended (labels, sure, &state->labels, motion->palette.n, state->sure));
 }
 
 static bool
@@ -104,9 +81,8 @@ make (const CliMotion *motion, const CeldHost *host, Sides *sides, const CliFram
                     labels_before (motion, host, state->frame - 1, sides->key[0], &before);
 
   state->certainty = MAX (kept[0].certainty, kept[1].certainty);
-  if (good && motion->options->review)
-    state->sure = sure_of_both (motion, sides, kept, &state->labels);
-  good = good && cli_frame_take_notes (motion, &before, &state->labels, &state->pixel_certainty, state);
+  good = good && (!motion->options->review || rate_labels (motion, sides, kept, state)) &&
+         cli_frame_take_notes (motion, &before, &state->labels, &state->pixel_certainty, state);
   g_free (before.data);
   return good && cli_frame_write (motion, host, state);
 }

@@ -23,40 +23,27 @@ take_fingerprint (const CliMotion *motion, const char *relations, CliKey *key)
   return key->fingerprint != NULL;
 }
 
-/* ------------------------------------------------------------------ the palette of the clip */
+/* ------------------------------------------------------------------ labels and ink */
 
-/* The label of a region of a key in the clip's palette, to which it is added if it is new. */
+/* The label of the background; 0: there is none. */
 static uint32_t
-clip_label (CliMotion *motion, const CeldRegion *region)
+background_of (const CeldPalette *palette)
 {
-  CeldPalette *palette = &motion->palette;
-
-  if (region->background && motion->background)
-    return motion->background;
   for (size_t k = 0; k < palette->n; k++)
-    if (!region->background && !memcmp (palette->item[k].colour, region->colour, 4))
+    if (palette->item[k].background)
       return (uint32_t) k + 1;
-  palette->item = g_renew (CeldRegion, palette->item, palette->n + 1);
-  palette->item[palette->n++] = *region;
-  if (region->background)
-    motion->background = (uint32_t) palette->n;
-  return (uint32_t) palette->n;
+  return 0;
 }
 
-static bool
+static CeldStatus
 take_labels (CliMotion *motion, const CeldLabels *labels, const CeldPalette *palette, CliKey *key)
 {
-  uint32_t *number = g_new0 (uint32_t, palette->n + 1);
-  bool      good = cli_labels_new (labels->width, labels->height, &key->labels);
+  CeldStatus status = cli_labels_new (labels->width, labels->height, &key->labels) ? CELD_OK : CELD_NO_MEMORY;
 
-  for (size_t k = 0; k < palette->n; k++)
-    number[k + 1] = clip_label (motion, &palette->item[k]);
-  for (int y = 0; good && y < labels->height; y++)
-    for (int x = 0; x < labels->width; x++)
-      key->labels.data[(size_t) y * key->labels.stride + (size_t) x] =
-        number[labels->data[(size_t) y * labels->stride + (size_t) x]];
-  g_free (number);
-  return good;
+  if (status == CELD_OK)
+    status = celd_join_labels (labels, palette, &motion->palette, &key->labels);
+  motion->background = background_of (&motion->palette);
+  return status;
 }
 
 static bool
@@ -72,22 +59,6 @@ take_ink (const CeldPlane *ink, CliKey *key)
 
 /* ------------------------------------------------------------------ relations */
 
-/* Makes an end of a relation one by colour; false for a transparent background, which has none. */
-static bool
-name_by_colour (const CliMotion *motion, const CliKey *key, CeldTerm *term)
-{
-  const CeldRegion *region;
-
-  if (term->by_colour)
-    return true;
-  if (!(term->x >= 0 && term->y >= 0 && term->x < motion->width && term->y < motion->height))
-    return false;
-  region = &motion->palette.item[key->labels.data[(size_t) term->y * key->labels.stride + (size_t) term->x] - 1];
-  term->by_colour = true;
-  memcpy (term->colour, region->colour, 3);
-  return region->colour[3] > 0;
-}
-
 /* Appends the relations of a key that are not there yet, one on each line. */
 static void
 take_relations (const CliMotion *motion, const CliKey *key, const CeldRelations *relations, GString *all)
@@ -97,8 +68,7 @@ take_relations (const CliMotion *motion, const CliKey *key, const CeldRelations 
       CeldRelation relation = relations->item[i];
       char        *text, *line;
 
-      if (!name_by_colour (motion, key, &relation.nearer) || !name_by_colour (motion, key, &relation.farther) ||
-          !memcmp (relation.nearer.colour, relation.farther.colour, 3))
+      if (!celd_relation_by_colour (&key->labels, &motion->palette, &relation))
         continue;
       text = cli_relation_text (&relation, NULL);
       line = g_strdup_printf ("%s\n", text);
@@ -131,17 +101,18 @@ make_key (CliMotion *motion, CeldSession *session, CliRun *run, CliKey *key, GSt
   CeldPlane        ink;
   const CeldOrder *order;
   CeldStatus       status = celd_session_ink (session, &run->host, &ink, NULL);
-  bool             good = status == CELD_OK && take_ink (&ink, key);
 
+  if (status == CELD_OK && !take_ink (&ink, key))
+    status = CELD_NO_MEMORY;
   if (status == CELD_OK)
     status = celd_session_labels (session, &run->host, &labels, NULL);
   if (status == CELD_OK)
-    good = good && take_labels (motion, &labels, celd_session_palette (session), key);
+    status = take_labels (motion, &labels, celd_session_palette (session), key);
   if (status == CELD_OK)
     status = celd_session_order (session, &run->host, &order);
-  if (status == CELD_OK && good)
+  if (status == CELD_OK)
     take_relations (motion, key, celd_session_relations (session), relations);
-  return status == CELD_OK && !good ? CELD_NO_MEMORY : status;
+  return status;
 }
 
 static bool
@@ -198,7 +169,7 @@ cli_keys_clear (CliMotion *motion)
       g_free (motion->key[i].fingerprint);
     }
   g_free (motion->key);
-  g_free (motion->palette.item);
+  celd_palette_clear (&motion->palette);
   g_free (motion->relations);
   celd_order_clear (&motion->order);
 }

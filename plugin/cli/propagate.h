@@ -35,7 +35,7 @@ typedef struct
   CliSequence       frames;
   CliKey           *key;           /* by frames */
   size_t            n_keys;
-  CeldPalette       palette;       /* of all keys; `item` ends with g_free */
+  CeldPalette       palette;       /* of all keys */
   uint32_t          background;    /* its label; 0: none */
   char             *relations;     /* of all keys, between colours */
   CeldOrder         order;

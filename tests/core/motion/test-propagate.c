@@ -256,6 +256,53 @@ labels_that_do_not_come_back_are_unsure (void)
   CHECK (check_returned ("31112222", "11112222", "11112222", 2, all) == CELD_BAD_VALUE);
 }
 
+/* What a frame has, and what its sides have, as digits; `sure` is that of labels 1, 2, ... on both sides, and `percent`
+ * what they get. */
+static CeldStatus
+check_rating (const char *frame, const char *first, const char *second, const double *sure[2], size_t n,
+              const int *percent)
+{
+  enum { LENGTH = 8, MOST = 5 };
+  const char       *text[3] = { frame, first, second };
+  uint32_t          label[3][LENGTH];
+  CeldLabels        labels[3];
+  const CeldLabels *side[2] = { &labels[1], &labels[2] };
+  double            rated[MOST + 1] = { -1 };
+  CeldStatus        status;
+
+  for (int k = 0; k < 3; k++)
+    {
+      labels[k] = (CeldLabels) { LENGTH / 2, 2, LENGTH / 2, label[k] };
+      for (int i = 0; i < LENGTH; i++)
+        label[k][i] = (uint32_t) (text[k][i] - '0');
+    }
+  status = celd_rate_blended (side, sure, &labels[0], n, rated);
+  for (size_t l = 1; status == CELD_OK && l <= n; l++)
+    NEAR (rated[l], percent[l - 1] / 100., 1e-9);
+  CHECK (rated[0] == -1);
+  labels[2].height = 1;
+  CHECK (celd_rate_blended (side, sure, &labels[0], n, rated) == CELD_BAD_SIZE);
+  return status;
+}
+
+static void
+blended_labels_are_as_sure_as_their_better_side (void)
+{
+  static const double of_first[] = { 0, 0.6, 1, 0.3 }, of_second[] = { 0, 0.8, 0.5, 0.9 };
+  const double       *sure[2] = { of_first, of_second };
+  static const int    same[] = { 80, 100, 90 }, apart[] = { 75, 80, 90 }, part[] = { 80, 0, 45 };
+
+  /* Both say the same, and neither has a third label. */
+  CHECK (check_rating ("11112222", "11112222", "11112222", sure, 3, same) == CELD_OK);
+  /* They agree in 3 of 4 pixels of the first label, and in 4 of 5 of the second one. */
+  CHECK (check_rating ("11122222", "11122222", "11112222", sure, 3, apart) == CELD_OK);
+  /* The side that is surer of the third label has half of it, and has the second one where the frame has it not. */
+  CHECK (check_rating ("33333333", "33333333", "33332222", sure, 3, part) == CELD_OK);
+  CHECK (check_rating ("11112222", "11112222", "11112223", sure, 2, same) == CELD_BAD_VALUE);
+  CHECK (check_rating ("11112222", "11112232", "11112222", sure, 2, same) == CELD_BAD_VALUE);
+  CHECK (check_rating ("11112223", "11112222", "11112222", sure, 2, same) == CELD_BAD_VALUE);
+}
+
 static void
 blends_of_other_sizes_are_refused (void)
 {
@@ -335,6 +382,7 @@ main (void)
   RUN (a_part_that_one_key_knows_is_taken_from_it);
   RUN (each_area_takes_the_more_certain_side);
   RUN (labels_that_do_not_come_back_are_unsure);
+  RUN (blended_labels_are_as_sure_as_their_better_side);
   RUN (blends_of_other_sizes_are_refused);
   RUN (order_of_work_does_not_matter);
   RUN (bad_input_is_refused);
