@@ -100,8 +100,6 @@ CELD_API void celd_problems_paint (const CeldProblems *problems, CeldPaint *pain
 CELD_API void celd_problem_text (const CeldProblem *problem, const CeldPalette *palette, const CeldRelations *relations,
                                  CeldTranslate translate, char *text, size_t size);
 
-#define CELD_REGION_SURE 0.7 /* a region below this certainty is to be looked at; chosen on clips with ground truth */
-
 typedef enum
 {
   CELD_REGION_UNSURE,

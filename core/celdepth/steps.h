@@ -500,6 +500,9 @@ CELD_API CeldStatus celd_rate_returned (const CeldLabels *before, const CeldLabe
 CELD_API CeldStatus celd_note_regions (const CeldPlane *ink, const CeldLabels *before, const CeldLabels *after,
                                        const CeldPlane *certainty, size_t n, uint32_t background, const double *sure,
                                        CeldRegionNote *item, size_t *n_items, double *mean);
+/* Should a person look at a frame with these notes and this certainty, the mean over all its regions or that of an
+ * earlier frame if that is less? */
+CELD_API bool       celd_wants_review (const CeldRegionNote *note, size_t n, double certainty);
 
 /* Makes one picture of labels that were propagated to a frame from two keys, one on either side.  Where they differ a
  * connected area takes the label with the higher confidence, certainty times nearness; the nearer key's if both have

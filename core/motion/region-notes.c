@@ -9,6 +9,8 @@
 #define NOTED      0.75 /* a region below this certainty is noted; chosen */
 #define NOTED_AREA 5e-4 /* of the page: smaller regions are not noted; chosen */
 #define NOTED_PART 0.25 /* of the paper of a region, at least, that is unsure; chosen */
+#define REGION_SURE 0.7 /* a region below this certainty is to be looked at; chosen on clips with ground truth */
+#define FRAME_SURE  0.9 /* a frame below this one is, whatever its regions; chosen on them, too */
 
 /* Sums over the pixels of a label; x, y: of those that are unsure, or of all without certainty. */
 typedef struct { size_t n, paper, unsure; double certainty, x, y; } LabelSums;
@@ -75,7 +77,7 @@ note_label (const Frames *f, double least, bool background, double sure, CeldReg
 {
   const LabelSums *old = &f->sums[0][note->label], *new = &f->sums[1][note->label];
   bool             gone = !new->n && (double) old->n >= least, appears = !old->n && (double) new->n >= least;
-  bool             many = (double) new->unsure >= least, doubtful = !background && sure < CELD_REGION_SURE;
+  bool             many = (double) new->unsure >= least, doubtful = !background && sure < REGION_SURE;
 
   note->change    = !new->n ? CELD_REGION_GONE : appears ? CELD_REGION_NEW : CELD_REGION_UNSURE;
   note->certainty = fmin (new->paper ? new->certainty / (double) new->paper : 0, doubtful ? sure : 1);
@@ -118,4 +120,13 @@ celd_note_regions (const CeldPlane *ink, const CeldLabels *before, const CeldLab
   *mean = area > 0 ? all / area : 0;
   celd_free (f.sums[0]);
   return CELD_OK;
+}
+
+bool
+celd_wants_review (const CeldRegionNote *note, size_t n, double certainty)
+{
+  for (size_t i = 0; i < n; i++)
+    if (note[i].certainty < REGION_SURE)
+      return true;
+  return certainty < FRAME_SURE;
 }

@@ -7,8 +7,6 @@
 
 #include <string.h>
 
-#define SURE      0.9 /* a frame below this certainty is to be looked at, whatever its regions; chosen on clips with
-                       * ground truth */
 #define THUMBNAIL 320 /* pixels of the longer side of a frame in the picture; chosen */
 #define ACROSS    4   /* frames in a row; chosen */
 
@@ -47,10 +45,7 @@ add_note (JsonBuilder *json, const CliMotion *motion, const CeldRegionNote *note
 static bool
 wants_review (const CliFrameState *state)
 {
-  for (guint i = 0; i < state->notes->len; i++)
-    if (g_array_index (state->notes, CeldRegionNote, i).certainty < CELD_REGION_SURE)
-      return true;
-  return state->certainty < SURE;
+  return celd_wants_review ((const CeldRegionNote *) state->notes->data, state->notes->len, state->certainty);
 }
 
 static void

@@ -121,6 +121,17 @@ doubtful_ones_are_noted (void)
 }
 
 static void
+unsure_regions_and_frames_want_a_review (void)
+{
+  CeldRegionNote note[2] = { { .certainty = 1 }, { .certainty = 0.7 } };
+
+  CHECK (!celd_wants_review (NULL, 0, 0.9) && celd_wants_review (NULL, 0, 0.899));
+  CHECK (!celd_wants_review (note, 2, 0.9) && celd_wants_review (note, 2, 0.5));
+  note[1].certainty = 0.699;
+  CHECK (celd_wants_review (note, 2, 1) && !celd_wants_review (note, 1, 1));
+}
+
+static void
 bad_input (void)
 {
   static Clip    c;
@@ -146,6 +157,7 @@ main (void)
   RUN (ink_does_not_count);
   RUN (what_vanishes_or_appears_is_noted);
   RUN (doubtful_ones_are_noted);
+  RUN (unsure_regions_and_frames_want_a_review);
   RUN (bad_input);
   return DONE;
 }
