@@ -285,6 +285,23 @@ relief_mesh_step (const CeldHost *host, Results *r)
   return status;
 }
 
+/* The levels, one for each label. */
+static CeldStatus
+flatten_step (const CeldHost *host, Results *r)
+{
+  static Pixels copy;
+  CeldLabels    labels = labels_of (&label_pixels);
+  CeldPlane     levels = plane_of (&copy);
+  CeldStatus    status;
+
+  (void) host;
+  memcpy (copy.plane, ink_pixels.plane, sizeof copy.plane);
+  status = celd_flatten_levels (&labels, label_palette.n, &levels);
+  if (status == CELD_OK)
+    memcpy (r->pixels->plane, copy.plane, sizeof copy.plane);
+  return status;
+}
+
 /* A model of the level picture, as solids. */
 static CeldStatus
 model_step (const CeldHost *host, Results *r)
@@ -321,6 +338,7 @@ const Step use_steps[] = {
   { "relief", relief_step, NULL, true },
   { "relief of normals", relief_of_normals_step, NULL, true },
   { "relief mesh", relief_mesh_step, NULL, true },
+  { "levels of regions", flatten_step, NULL, false },
   { "model", model_step, NULL, true },
   { NULL, NULL, NULL, false },
 };

@@ -399,6 +399,10 @@ CELD_API void       celd_relief_mesh_clear (CeldReliefMesh *mesh);         /* ac
 CELD_API CeldStatus celd_model (const CeldSheets *sheets, const CeldOwnership *ownership, const CeldLayers *layers,
                                 const CeldPlane *ink, const CeldPlane *borders, const CeldSettings *settings,
                                 const CeldHost *host, CeldModel *model);
+/* Gives each of n regions, and what has label 0, one level, in place: the median of its levels, of two the higher one.
+ * NaN reads as 0.  Makes levels for a model of which regions are known better than from expanded levels, which differ
+ * in ink.  CELD_BAD_VALUE for labels beyond n. */
+CELD_API CeldStatus celd_flatten_levels (const CeldLabels *regions, size_t n, CeldPlane *levels);
 /* A model of levels, expanded or not, with the labels of celd_expand_levels; `regions` may be NULL. */
 CELD_API CeldStatus celd_model_of_levels (const CeldPlane *ink, const CeldPlane *borders, const CeldPlane *levels,
                                           const CeldLabels *regions, const CeldColours *art,

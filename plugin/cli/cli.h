@@ -438,8 +438,6 @@ bool cli_deformed_layers_write (const char *path, CeldPuppet *puppet, const Celd
  * regions (may be NULL: then by number) in their colours. */
 char       **cli_model_names (const CeldPalette *palette);
 char       **cli_model_names_of_regions (const CeldPlane *levels, const CeldLabels *regions, const CeldPalette *palette);
-/* Gives each region one level, its median: expanded levels differ from it in ink. */
-void         cli_levels_flatten (const CeldLabels *regions, CeldPlane *levels);
 /* The settings with the kind of mesh that the file needs: solid parts for STL, for printing, and else surfaces. */
 CeldSettings cli_model_settings (const CliOptions *options);
 /* Takes over the names. */

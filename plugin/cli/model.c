@@ -5,8 +5,6 @@
 #include "cli.h"
 #include "part-names.h"
 
-#include <stdlib.h>
-
 /* ------------------------------------------------------------------ names */
 
 char **
@@ -68,46 +66,6 @@ cli_model_names_of_regions (const CeldPlane *levels, const CeldLabels *regions, 
     }
   g_array_free (list, TRUE);
   return name;
-}
-
-/* ------------------------------------------------------------------ levels of regions */
-
-static int
-compare_levels (const void *first, const void *second)
-{
-  const float *a = first, *b = second;
-
-  return (*a > *b) - (*a < *b);
-}
-
-void
-cli_levels_flatten (const CeldLabels *regions, CeldPlane *levels)
-{
-  size_t   n = (size_t) levels->width * (size_t) levels->height;
-  uint32_t most = 0;
-  size_t  *first;
-  float   *sorted = g_new (float, n);
-
-  for (size_t i = 0; i < n; i++)
-    most = MAX (most, regions->data[i]);
-  first = g_new0 (size_t, (gsize) most + 2); /* of region k: sorted[first[k]] .. sorted[first[k + 1] - 1] */
-  for (size_t i = 0; i < n; i++)
-    first[regions->data[i] + 1]++;
-  for (uint32_t k = 0; k <= most; k++)
-    first[k + 1] += first[k];
-  for (size_t i = 0; i < n; i++)
-    sorted[first[regions->data[i]]++] = levels->data[i];
-  for (uint32_t k = most + 1; k-- > 0;) /* each first[k] is the end of region k by now */
-    {
-      size_t begin = k ? first[k - 1] : 0, end = first[k];
-
-      qsort (sorted + begin, end - begin, sizeof *sorted, compare_levels);
-      first[k] = begin + (end - begin) / 2;
-    }
-  for (size_t i = 0; i < n; i++)
-    levels->data[i] = sorted[first[regions->data[i]]];
-  g_free (first);
-  g_free (sorted);
 }
 
 /* ------------------------------------------------------------------ settings and files */

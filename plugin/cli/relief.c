@@ -118,11 +118,11 @@ model_of_levels (const CliOptions *options, CliStep *step)
       const CeldLabels  *known = regions.data ? &regions : NULL;
       CeldSettings       settings = cli_model_settings (options);
 
-      if (known)
-        cli_levels_flatten (known, &step->levels);
       cli_run_stage (&step->run, "mesh");
-      status = celd_model_of_levels (&step->ink, cli_step_borders (step), &step->levels, known, &art, &settings,
-                                     &step->run.host, &model);
+      status = known ? celd_flatten_levels (known, palette.n, &step->levels) : CELD_OK;
+      if (status == CELD_OK)
+        status = celd_model_of_levels (&step->ink, cli_step_borders (step), &step->levels, known, &art, &settings,
+                                       &step->run.host, &model);
       good = cli_mesh_finish (options, &step->run, status, model.error) &&
              cli_model_write (options->mesh, &model, cli_model_names_of_regions (&step->levels, known, &palette));
     }
