@@ -56,6 +56,10 @@ CELD_API bool celd_are_scribbles (const CeldPaint *paint);
 CELD_API bool celd_is_grey (const CeldPaint *paint);
 CELD_API bool celd_is_coloured_strokes (const CeldPaint *paint);
 
+/* Whether labels of flat colours, and finite levels, can be such: no photograph can.  For hosts, as those above. */
+CELD_API bool celd_are_labels (const CeldLabels *labels, const CeldPalette *palette);
+CELD_API bool celd_are_levels (const CeldPlane *levels);
+
 /* Reads painted scribbles: seed labels (0 where nothing is painted), and the palette of their colours, of origin
  * CELD_FROM_SCRIBBLE, by decreasing painted area.  Pixels with alpha below one half count as not painted, and in a
  * picture without alpha those of the most frequent colour (unless settings->flats).  Mixed colours at the edges of

@@ -159,9 +159,7 @@ cli_check_grey (const char *path)
 bool
 cli_check_regions (const char *path, const CeldLabels *regions, const CeldPalette *palette)
 {
-  size_t pixels = (size_t) regions->width * (size_t) regions->height;
-
-  return palette->n < 1000 || 20 * palette->n < pixels ||
+  return celd_are_labels (regions, palette) ||
          cli_error ("\"%s\" looks like a photograph: regions are flat colours, such as segment writes them with "
                     "--labels.", path);
 }
@@ -169,17 +167,7 @@ cli_check_regions (const char *path, const CeldLabels *regions, const CeldPalett
 bool
 cli_check_levels (const char *path, const CeldPlane *levels)
 {
-  size_t n = (size_t) levels->width * (size_t) levels->height, changes = 0;
-  float  least = INFINITY, most = -INFINITY;
-
-  for (size_t i = 0; i < n; i++)
-    {
-      least = fminf (least, levels->data[i]);
-      most  = fmaxf (most, levels->data[i]);
-    }
-  for (size_t i = 1; i < n; i++)
-    changes += fabsf (levels->data[i] - levels->data[i - 1]) > (most - least) / 300;
-  return 10 * changes < 3 * n ||
+  return celd_are_levels (levels) ||
          cli_error ("\"%s\" looks like a photograph: levels have one value for each part, such as popup writes them "
                     "with --levels.", path);
 }
