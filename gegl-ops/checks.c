@@ -1,5 +1,5 @@
-/* Pictures that are something else than they were connected for: they are refused with one sentence, as the plug-ins and
- * the command do (plugin/pipeline-checks.c), and the input passes through.
+/* Pictures that are something else than they were connected for: they are refused with one sentence, as the plug-ins
+ * and the command do (plugin/pipeline-checks.c), and the input passes through.
  *
  * An effect runs at each dab, mostly on the same drawing: one that was good is only compared.
  *

@@ -44,7 +44,8 @@ typedef struct { const char *name, *heading; int choices; } CeldMainSetting;
 #define CELD_N_MAIN_SETTINGS 17
 extern const CeldMainSetting celd_main_settings[CELD_N_MAIN_SETTINGS];
 
-/* How dialogs show a number: multiplied by this, with so many digits after the point, and this unit; NULL: it has none. */
+/* How dialogs show a number: multiplied by this, with so many digits after the point, and this unit; NULL: it has
+ * none. */
 typedef struct { double factor; int digits; const char *unit; } CeldShownNumber;
 
 /* Fractions are percentages, angles whole degrees. */

@@ -25,8 +25,9 @@ CELD_API void celd_luma (const float *rgba, size_t n, float *luma, float *alpha)
 CELD_API CeldStatus celd_coloured_lines (const CeldPaint *art, CeldInkMode mode, const CeldHost *host,
                                          CeldDrawing *drawing);
 
-/* How clearly lines differ from paper: a blank page, and one that is too small to tell, counts as clear.  For hosts, which
- * refuse what has none, and warn of what is unsure.  `drawing` is as it was painted, before celd_coloured_lines. */
+/* How clearly lines differ from paper: a blank page, and one that is too small to tell, counts as clear.  For hosts,
+ * which refuse what has none, and warn of what is unsure.  `drawing` is as it was painted, before
+ * celd_coloured_lines. */
 typedef enum
 {
   CELD_LINES_CLEAR,
@@ -49,10 +50,11 @@ CELD_API bool celd_ink_has_lines (const CeldPlane *ink);
 CELD_API CeldStatus celd_contours_bake (const CeldDrawing *drawing, const CeldPaint *contours, CeldPurpose purpose,
                                         CeldInkMode mode, const CeldHost *host, CeldDrawing *out);
 
-/* Whether a layer can be scribbles: strokes in flat colours on a blank layer, or on scanned paper; no photograph can. */
+/* Whether a layer can be scribbles: strokes in flat colours on a blank layer, or on scanned paper; no photograph
+ * can. */
 CELD_API bool celd_are_scribbles (const CeldPaint *paint);
-/* Whether a picture that is not empty is grey, as inks are; whether it is strokes in several clear colours on a blank page.  If the
- * former was given as scribbles and the latter as the drawing, they are exchanged. */
+/* Whether a picture that is not empty is grey, as inks are; whether it is strokes in several clear colours on a blank
+ * page.  If the former was given as scribbles and the latter as the drawing, they are exchanged. */
 CELD_API bool celd_is_grey (const CeldPaint *paint);
 CELD_API bool celd_is_coloured_strokes (const CeldPaint *paint);
 
@@ -346,8 +348,8 @@ CELD_API CeldStatus celd_scene_view (const CeldScene *scene, CeldCamera camera, 
                                      const CeldHost *host, CeldColours *view);
 
 /* A relief on the turntable is a scene whose depth is its heights.  celd_turntable_depth makes these depth in [0,1],
- * with all 0 if the relief is level; `depth` has the size of the relief, or else CELD_BAD_SIZE.  `range` gets the pixels
- * from the farthest height to the nearest one.  Heights are finite, as those of celd_relief are. */
+ * with all 0 if the relief is level; `depth` has the size of the relief, or else CELD_BAD_SIZE.  `range` gets the
+ * pixels from the farthest height to the nearest one.  Heights are finite, as those of celd_relief are. */
 CELD_API CeldStatus celd_turntable_depth    (const CeldRelief *relief, CeldPlane *depth, double *range);
 /* Sets disparity and convergence such that celd_scene_view of that scene shows what has turned about a vertical axis
  * through the middle of its heights; `width` is the scene's.  A disparity that the setting does not take becomes the
@@ -474,13 +476,14 @@ CELD_API CeldStatus celd_compose_levels (const CeldLevelArt piece[2], const Celd
 CELD_API void       celd_composition_map (const CeldComposition *composition, size_t fragment, double x, double y,
                                           double place[2]);
 
-/* Gives the labels of a key drawing the numbers that its regions have in the palette of all keys of a clip, to which new
- * ones are added: regions of one colour are one, and all backgrounds are.  `joined` may be `labels`.  CELD_BAD_VALUE for
- * labels beyond the palette. */
+/* Gives the labels of a key drawing the numbers that its regions have in the palette of all keys of a clip, to which
+ * new ones are added: regions of one colour are one, and all backgrounds are.  `joined` may be `labels`.
+ * CELD_BAD_VALUE for labels beyond the palette. */
 CELD_API CeldStatus celd_join_labels (const CeldLabels *labels, const CeldPalette *palette, CeldPalette *all,
                                       CeldLabels *joined);
-/* Names the ends of a relation by the colours of the regions at their places, so that it holds in the other keys, too.
- * False, and the relation as it was, if an end is outside or in a transparent background, or if both have one colour. */
+/* Names the ends of a relation by the colours of the regions at their places, so that it holds in the other keys,
+ * too.  False, and the relation as it was, if an end is outside or in a transparent background, or if both have one
+ * colour. */
 CELD_API bool       celd_relation_by_colour (const CeldLabels *labels, const CeldPalette *palette,
                                              CeldRelation *relation);
 
@@ -493,10 +496,10 @@ CELD_API CeldStatus celd_propagate (const CeldPlane *ink, const CeldLabels *sour
                                     uint32_t background, const CeldPlane *next, const CeldHost *host, CeldLabels *labels,
                                     CeldPlane *certainty);
 /* How sure each label is that was carried from the frame `before`, of all of whose pixels it has labels, to the frame
- * `after`; `back` has those of `after` as celd_propagate carries them back to `before`, where 0 does not count.  sure[1]
- * to sure[n] get the share of pixels that came back, or the ratio of both areas if that is less: from 0, nothing
- * agrees, to 1; also 1 for a label that neither frame has.  sure[0] is left alone.  CELD_BAD_VALUE for labels beyond
- * n. */
+ * `after`; `back` has those of `after` as celd_propagate carries them back to `before`, where 0 does not count.
+ * sure[1] to sure[n] get the share of pixels that came back, or the ratio of both areas if that is less: from 0,
+ * nothing agrees, to 1; also 1 for a label that neither frame has.  sure[0] is left alone.  CELD_BAD_VALUE for labels
+ * beyond n. */
 CELD_API CeldStatus celd_rate_returned (const CeldLabels *before, const CeldLabels *after, const CeldLabels *back,
                                         size_t n, double *sure);
 
@@ -543,9 +546,9 @@ CELD_API CeldStatus celd_handles_between (const CeldHandleKey *key, size_t n, in
 
 /* Makes a puppet of completed layers at rest: a square lattice for each, joined to others where depth is continuous,
  * that is, where levels are equal or no ink of the drawing lies between them, nor with settings->hold_gaps a gap in a
- * contour, unless `borders` (may be NULL) has ink there and `ink` has not; with any cracks of celd_cracks_find (`cracks`
- * may be NULL) wherever layers touch except there.  The layer of label `background` (0: none) does not move.  Of the
- * settings cell_size, ink_threshold and hold_gaps count.  The puppet has copies of its input. */
+ * contour, unless `borders` (may be NULL) has ink there and `ink` has not; with any cracks of celd_cracks_find
+ * (`cracks` may be NULL) wherever layers touch except there.  The layer of label `background` (0: none) does not move.
+ * Of the settings cell_size, ink_threshold and hold_gaps count.  The puppet has copies of its input. */
 CELD_API CeldStatus celd_puppet_new (const CeldLayers *layers, const CeldPlane *ink, const CeldPlane *borders,
                                      uint32_t background, const CeldCracks *cracks, const CeldSettings *settings,
                                      const CeldHost *host, CeldPuppet **puppet);

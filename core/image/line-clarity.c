@@ -4,14 +4,14 @@
  * contrast.  In a photograph it takes all values in between.  So a drawing is told by the share of partial values: of
  * the pixels where a closing adds much, those where it adds about half of the contrast, at the closing with the fewest.
  * Of 430 drawings (ink, pencil, chalk, coloured, washed, hatched, with tones, scanned, photographed) none has more than
- * 0.44; of 108 photographs 87 have more than 0.46, and so have 6 of 66 drawings that are hard to read: faint on grain, with
- * much soft shading, or photographed with the desk that they lie on.
+ * 0.44; of 108 photographs 87 have more than 0.46, and so have 6 of 66 drawings that are hard to read: faint on grain,
+ * with much soft shading, or photographed with the desk that they lie on.
  *
  * Where that share is large, it is no drawing if one of two other measures says so, too.  One is how well the values
  * separate into two classes, by Otsu's measure [A threshold selection method from gray-level histograms, 1979]: the
  * variance between the classes as a fraction of all variance.  Those 6 drawings have 0.73 at least.  The other is the
- * variation that stays in the closed picture, as a fraction of all variation: where lines explain a picture, little does.
- * Those 6 have 0.05 at most.  70 of the photographs have less than 0.72, or more than 0.07.
+ * variation that stays in the closed picture, as a fraction of all variation: where lines explain a picture, little
+ * does.  Those 6 have 0.05 at most.  70 of the photographs have less than 0.72, or more than 0.07.
  *
  * Grain hides lines, so a picture without clear ones is also smoothed.
  *

@@ -1,7 +1,7 @@
 /* The tones of lines: a thick stroke is a line, too, if it has the colour of thinner ones.
  *
- * The cores of lines are counted by coarse colours.  Each count is then added to those of the colours around it, so that
- * it does not matter where in its tone a colour lies.
+ * The cores of lines are counted by coarse colours.  Each count is then added to those of the colours around it, so
+ * that it does not matter where in its tone a colour lies.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */

@@ -290,8 +290,9 @@ barb_length (const Extent *e)
   return fmax (hypot (e->most_s - e->left_s, e->left), hypot (e->most_s - e->right_s, e->right));
 }
 
-/* Do two lines of a loop meet at the farthest place from where a stroke was followed?  Then their paint just before it
- * is on two sides.  That says nothing if it is no farther than the barbs of a head where the stroke was followed from. */
+/* Do two lines of a loop meet at the farthest place from where a stroke was followed?  Then their paint just before
+ * it is on two sides.  That says nothing if it is no farther than the barbs of a head where the stroke was followed
+ * from. */
 static bool
 two_meet_at_end (const CeldArrowStroke *stroke, double w, double barb)
 {

@@ -2,8 +2,8 @@
  *
  * Each connected stroke of the layer (alpha at least one half; in a layer without alpha, what differs from the
  * commonest colour) is one arrow; where strokes cross, each is followed straight on (arrow-strokes.c).  Strokes of
- * different colours may touch as they like: each colour is read alone (coloured-arrows.c), if the places of its ends are
- * known.  The form of a stroke decides; its colour also says whether registration may tear there (blue).
+ * different colours may touch as they like: each colour is read alone (coloured-arrows.c), if the places of its ends
+ * are known.  The form of a stroke decides; its colour also says whether registration may tear there (blue).
  *
  *   head   an arrowhead, open or filled, is the farther end (arrowhead.c)
  *   dot    a blob is the nearer end (arrowhead.c)

@@ -184,8 +184,8 @@ find_common_place (const CeldStrokeMask *component, const CeldArrowEnd *end, con
   return leads_to (component, end, *place) && leads_to (component, other, *place);
 }
 
-/* May end i tell where end k is, which is hidden?  What fades or tapers is strongest at its nearer end: it does not lead
- * below others there, and one that goes straight on from it may hide more of it. */
+/* May end i tell where end k is, which is hidden?  What fades or tapers is strongest at its nearer end: it does not
+ * lead below others there, and one that goes straight on from it may hide more of it. */
 static bool
 may_tell (const CeldArrowEnd *ends, size_t k, size_t i, bool lead)
 {

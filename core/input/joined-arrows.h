@@ -33,8 +33,8 @@ typedef struct
 } CeldJoinedLines;
 
 /* The arrows of a line: none if it is unclear, or one, or two that meet at its corner.  role: of each end, 1 = an arrow
- * ends there, -1 = one begins there, 0 = not known; seen: a head there is beyond doubt.  A dot always is, if the line has
- * one at either end. */
+ * ends there, -1 = one begins there, 0 = not known; seen: a head there is beyond doubt.  A dot always is, if the line
+ * has one at either end. */
 typedef struct { CeldPoint nearer[2], farther[2]; int n, role[2]; bool seen[2]; } CeldLineArrows;
 
 /* ------------------------------------------------------------------ joined-lines.c */

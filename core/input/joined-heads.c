@@ -68,8 +68,8 @@ find_marks (CeldJoinedLines *s)
   return status;
 }
 
-/* Joins the two lines of each node that has no more, and no mark: something else was there.  *joined: whether there were
- * such nodes. */
+/* Joins the two lines of each node that has no more, and no mark: something else was there.  *joined: whether there
+ * were such nodes. */
 static CeldStatus
 join_through (CeldJoinedLines *s, bool *joined)
 {

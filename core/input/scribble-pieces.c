@@ -2,8 +2,8 @@
  *
  * Strokes are found by luma, which loss keeps: their contrast exceeds that of the ripple which compression leaves
  * around strong strokes in the same block.  Where strokes of several colours touch, their darkest pixels still have
- * these colours, though less of each, by which the pixels of a piece are divided in two (k-means of [Lloyd82]), as often
- * as two are found that are clearly apart; else the piece would have a mixture, which looks like one more label.
+ * these colours, though less of each, by which the pixels of a piece are divided in two (k-means of [Lloyd82]), as
+ * often as two are found that are clearly apart; else the piece would have a mixture, which looks like one more label.
  *
  * Cost: O(pixels); in blocks where strokes of several colours touch, the square of their pixels.
  *

@@ -106,8 +106,8 @@ CeldStatus celd_puppet_continue_lines (CeldPuppet *puppet, const CeldPlane *ink)
 CeldStatus celd_puppet_layer_lattice (const CeldPuppetLayer *layer, CeldRect window, const CeldPlane *ink,
                                       const CeldSettings *settings, const CeldHost *host, CeldLattice **lattice);
 
-/* Makes the lattice of a puppet whose layers have their pictures, and the cells of their pixels.  `borders` and `cracks`
- * are as for celd_puppet_new. */
+/* Makes the lattice of a puppet whose layers have their pictures, and the cells of their pixels.  `borders` and
+ * `cracks` are as for celd_puppet_new. */
 CeldStatus celd_puppet_embed (CeldPuppet *puppet, const CeldPlane *ink, const CeldPlane *borders,
                               const CeldCracks *cracks, const CeldSettings *settings, const CeldHost *host);
 

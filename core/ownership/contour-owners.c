@@ -198,8 +198,8 @@ own_lines_inside (const CeldEdgeLoop *loop, CeldContourPens *pens)
   return left;
 }
 
-/* Near a corner normals may run along the line, and end at a region that the line does not bound: if both sides have one
- * owner, it owns the corner between them, too. */
+/* Near a corner normals may run along the line, and end at a region that the line does not bound: if both sides have
+ * one owner, it owns the corner between them, too. */
 static void
 join_sides (const CeldEdgeLoop *loop, CeldContourPens *pens)
 {

@@ -185,7 +185,8 @@ bool celd_label_order_changed (const CeldLabelList *list, const CeldContourPens 
 
 /* ------------------------------------------------------------------ contour-owners.c */
 
-/* Finds the owners of a loop's points, whose labels and widths are known; `distance` is work space of loop->n numbers. */
+/* Finds the owners of a loop's points, whose labels and widths are known; `distance` is work space of loop->n
+ * numbers. */
 void celd_contour_owners_find (const CeldEdgeLoop *loop, CeldContourPens *pens, float *distance);
 
 /* ------------------------------------------------------------------ pen-width.c */

@@ -65,16 +65,16 @@ CeldStatus celd_bridges_compare (const CeldBridges *old, const CeldBridges *new,
 
 /* Finds the bridges of a drawing, and makes the basins of the drawing with its bridges.  `changed`: where the drawing
  * differs from that of *bridges and *basins; it is enlarged to where bridges differ.  NULL: both are made from the
- * beginning.  *bridged_component must be NULL; it is as by celd_bridges_join, or stays NULL without bridges.  After a failure *bridges are the old ones, while *basins may be of the new
- * drawing. */
+ * beginning.  *bridged_component must be NULL; it is as by celd_bridges_join, or stays NULL without bridges.  After a
+ * failure *bridges are the old ones, while *basins may be of the new drawing. */
 CeldStatus celd_bridges_make_basins (const CeldPlane *ink, CeldRect *changed, float threshold, const CeldHost *host,
                                      CeldBridges *bridges, CeldBasins *basins, uint32_t **bridged_component);
 
 /* ------------------------------------------------------------------ bridge-joins.c */
 
 /* Joins components over bridges, and enclosures over bridges that are longer than two stroke widths or have one end
- * only.  `ink` is without bridges.  *bridged_component becomes each basin's component with bridges between two line ends
- * as lines, and with those that go on from a line's end and nearly shut a room; the caller frees it. */
+ * only.  `ink` is without bridges.  *bridged_component becomes each basin's component with bridges between two line
+ * ends as lines, and with those that go on from a line's end and nearly shut a room; the caller frees it. */
 CeldStatus celd_bridges_join (const CeldBridges *bridges, const CeldPlane *ink, CeldBasins *basins,
                               uint32_t **bridged_component);
 

@@ -183,8 +183,8 @@ add_tip (LineEndSearch *s, CeldTip end)
   return CELD_OK;
 }
 
-/* Is there mostly ink between the ends of arms of that length?  Between the sides of a limb that is only outlined, there
- * is paper. */
+/* Is there mostly ink between the ends of arms of that length?  Between the sides of a limb that is only outlined,
+ * there is paper. */
 static bool
 is_inked (const LineEndSearch *s, size_t i, size_t arm)
 {

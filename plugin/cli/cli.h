@@ -242,8 +242,8 @@ bool cli_layers_read  (const char *input, const CliOptions *options, CliRoles wa
 void cli_layers_clear (CliLayers *layers);
 /* Reads levels or depth of the size of the layers. */
 bool cli_hint_read    (const char *path, const CliLayers *layers, CeldPlane *depth);
-/* The part that is called so; of a layer that the artist paints, in German or Czech, too (layer-names.h).  CELD_NO_INDEX:
- * there is none. */
+/* The part that is called so; of a layer that the artist paints, in German or Czech, too (layer-names.h).
+ * CELD_NO_INDEX: there is none. */
 size_t cli_find_part (const CeldIoFile *file, const char *name);
 /* Reads one layer: the part with the role's name, or else the first part of the file. */
 bool cli_layer_read (const char *path, const char *role, CliLayers *layers, CeldPaint *paint);

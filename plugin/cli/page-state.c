@@ -1,5 +1,5 @@
-/* What earlier runs have left of a page: a small JSON file, .PAGE.state.json, with a fingerprint of all that the results
- * were made from.
+/* What earlier runs have left of a page: a small JSON file, .PAGE.state.json, with a fingerprint of all that the
+ * results were made from.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */

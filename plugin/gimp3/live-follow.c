@@ -2,8 +2,8 @@
  *
  * GIMP does not tell plug-ins that pixels have changed, so layers are read and compared.  A buffer of GIMP's never
  * changes once it is there: each reading gets a new one.  Tiles are sent one by one, and libgimp ends a plug-in whose
- * layer is resized or removed meanwhile; so a copy is read, in an image that nobody else knows.  A copy is made at once,
- * and shares its tiles with the layer.
+ * layer is resized or removed meanwhile; so a copy is read, in an image that nobody else knows.  A copy is made at
+ * once, and shares its tiles with the layer.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */

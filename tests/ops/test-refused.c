@@ -203,8 +203,8 @@ says (Effect *e, GeglBuffer *page, GeglBuffer *strokes, const char *text)
   return text ? times_said == 1 && SAYS (text) : times_said == 0;
 }
 
-/* An effect remembers which drawing was good, but for as long as it stays the same; of a blank page, on which the artist
- * is about to draw, it says nothing. */
+/* An effect remembers which drawing was good, but for as long as it stays the same; of a blank page, on which the
+ * artist is about to draw, it says nothing. */
 static void
 effects_look_again_when_the_drawing_changes (void)
 {

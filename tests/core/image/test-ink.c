@@ -304,8 +304,8 @@ blur_fills_no_neck (void)
     }
 }
 
-/* A line of a third of a pixel to nearly a pixel, also where it lies between two columns of pixels, is ink along all of its
- * length in a drawing with a black stroke, and paper beside it stays paper. */
+/* A line of a third of a pixel to nearly a pixel, also where it lies between two columns of pixels, is ink along all of
+ * its length in a drawing with a black stroke, and paper beside it stays paper. */
 static void
 hairlines_are_ink (void)
 {

@@ -48,8 +48,8 @@ at_any_angles (void)
   read_at_any_angles (80, ONE, 0);
 }
 
-/* Strokes that meet and have neither heads nor dots, and are as opaque and wide everywhere, are not several arrows.  Three
- * may look like one with long barbs. */
+/* Strokes that meet and have neither heads nor dots, and are as opaque and wide everywhere, are not several arrows.
+ * Three may look like one with long barbs. */
 static void
 bare_strokes (void)
 {

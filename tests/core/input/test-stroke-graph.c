@@ -69,7 +69,8 @@ ends_of (const Canvas *c, double *apart)
   return n;
 }
 
-/* A stroke at any angle becomes a line in its middle, hardly shorter than it is: also one of two pixels on a diagonal. */
+/* A stroke at any angle becomes a line in its middle, hardly shorter than it is: also one of two pixels on a
+ * diagonal. */
 static void
 strokes_become_lines (void)
 {

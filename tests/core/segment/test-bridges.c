@@ -95,8 +95,8 @@ a_gap_in_a_circle_is_bridged (void)
     }
 }
 
-/* Rubbed out with a round eraser: the pieces of the thick line have hollow ends, and those between two gaps are less than
- * three times as long as the line is wide. */
+/* Rubbed out with a round eraser: the pieces of the thick line have hollow ends, and those between two gaps are less
+ * than three times as long as the line is wide. */
 static void
 gaps_of_a_thick_line_are_bridged (void)
 {

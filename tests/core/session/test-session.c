@@ -251,8 +251,9 @@ equal_input_invalidates_nothing (void)
   celd_session_free (s);
 }
 
-/* Left of a straight grey line, two pixels wide, is red, right of a jagged black one is blue.  What lies between is red's
- * while grey ink costs more than black, and blue's when both cost the same, because the grey line is the shorter one. */
+/* Left of a straight grey line, two pixels wide, is red, right of a jagged black one is blue.  What lies between is
+ * red's while grey ink costs more than black, and blue's when both cost the same, because the grey line is the shorter
+ * one. */
 static void
 a_new_ink_threshold_changes_the_labels (void)
 {
