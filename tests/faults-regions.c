@@ -19,6 +19,23 @@ ink_step (const CeldHost *host, Results *r)
   return celd_ink (&drawing, CELD_INK_AUTO, host, &ink);
 }
 
+/* A dark grey band between two lines, from top to bottom. */
+static CeldStatus
+bands_step (const CeldHost *host, Results *r)
+{
+  enum { SIDE = 20 };
+  static uint8_t between[SIDE * SIDE];
+  static float   ink[SIDE * SIDE];
+  CeldPlane      plane = { SIDE, SIDE, SIDE, ink };
+  CeldMask       mask = { SIDE, SIDE, SIDE, between };
+
+  (void) host;
+  (void) r;
+  for (int i = 0; i < SIDE * SIDE; i++)
+    ink[i] = i % SIDE == 10 ? 0.3f : i % SIDE < 8 || i % SIDE > 12 ? 1 : 0;
+  return celd_ink_part_lines (&plane, &mask);
+}
+
 static CeldStatus
 sprite_lines_step (const CeldHost *host, Results *r)
 {
@@ -347,6 +364,7 @@ background_step (const CeldHost *host, Results *r)
 
 const Step region_steps[] = {
   { "ink", ink_step, NULL, true },
+  { "bands between lines", bands_step, NULL, false },
   { "coloured lines", coloured_lines_step, NULL, true },
   { "lines of a sprite", sprite_lines_step, NULL, true },
   { "clarity of lines", clarity_step, NULL, true },

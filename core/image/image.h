@@ -80,6 +80,12 @@ bool celd_ink_shows_level (const CeldPlane *contrast, int x, int y, float dark);
  * CELD_NO_MEMORY is the only failure; then `smooth` is as it was. */
 CeldStatus celd_ink_smooth_lines (const CeldPlane *contrast, float noise, CeldPlane *smooth);
 
+/* ------------------------------------------------------------------ ink-bands.c */
+
+/* Makes paper of long bands of grey ink that are lighter than the lines on both sides.  `between`, a tight mask of the
+ * same size, is overwritten.  CELD_NO_MEMORY is the only failure; then `ink` is as it was. */
+CeldStatus celd_ink_part_lines (CeldPlane *ink, CeldMask *between);
+
 /* ------------------------------------------------------------------ ink-grain.c */
 
 /* Fills small holes in the ink of a noisy drawing.  `known`, a tight mask of the same size, is overwritten. */

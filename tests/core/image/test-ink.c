@@ -271,11 +271,11 @@ chalk_with_holes_stays_closed (void)
     }
 }
 
-/* Two thick lines with two and a half pixels of paper between them, out of focus, scanned with noise. */
+/* Two thick lines with so many pixels of paper between them, out of focus, scanned with noise. */
 static void
-blur_fills_no_neck (void)
+check_neck (float breadth)
 {
-  static const float edge[] = { -11.25f, -1.25f, 1.25f, 11.25f };
+  float edge[] = { -breadth / 2 - 10, -breadth / 2, breadth / 2, breadth / 2 + 10 };
 
   for (uint32_t seed = 1; seed <= 4; seed++)
     {
@@ -302,6 +302,13 @@ blur_fills_no_neck (void)
         }
       CHECK (dark == 0);
     }
+}
+
+static void
+blur_fills_no_neck (void)
+{
+  check_neck (2.5f);
+  check_neck (1.75f);
 }
 
 /* A line of a third of a pixel to nearly a pixel, also where it lies between two columns of pixels, is ink along all of
