@@ -5,7 +5,8 @@
  *
  * In tiers; for most programs the first is enough:
  *   celdepth/session.h   a session: from a drawing and its layers to every result, kept between edits
- *   celdepth/steps.h     the single steps, in their order
+ *   celdepth/steps.h     the single steps for one drawing, in their order
+ *   celdepth/motion.h    drawings that move, and several together
  *   celdepth/settings.h  all settings
  *   celdepth/records.h   the records that steps exchange: palettes, relations, orders, reports, layers
  *   celdepth/values.h    status, progress, threads, pictures
@@ -32,6 +33,7 @@
 #ifndef CELDEPTH_H
 #define CELDEPTH_H
 
+#include "celdepth/motion.h"
 #include "celdepth/session.h"
 #include "celdepth/steps.h"
 
