@@ -67,9 +67,12 @@ static inline double
 from_segment (Point p, Point a, Point b, double *t)
 {
   double dx = b.x - a.x, dy = b.y - a.y, l = dx * dx + dy * dy;
+  double way = l > 0 ? ((p.x - a.x) * dx + (p.y - a.y) * dy) / l : 0;
 
-  *t = l > 0 ? fmax (0, fmin (1, ((p.x - a.x) * dx + (p.y - a.y) * dy) / l)) : 0;
-  return hypot (p.x - a.x - *t * dx, p.y - a.y - *t * dy);
+  *t = way < 0 ? 0 : way > 1 ? 1 : way;
+  dx = p.x - a.x - *t * dx;
+  dy = p.y - a.y - *t * dy;
+  return sqrt (dx * dx + dy * dy); /* hypot takes half of the time of the tests that draw arrows */
 }
 
 static inline double
