@@ -103,31 +103,79 @@ use_build ()
 # ------------------------------------------------------------------ steps of a test run
 
 passed=0 failed=0 skipped=0
-spent= started=
+spent= started= running= begun=
 
 # step NAME COMMAND...: adds up the counts of the command's last line `N passed, N failed[, N skipped]`; without such a
 # line the command itself is one test.  Its output is shown if it fails, and kept in $logs.
 step ()
 {
-  local name=$1 log begin seconds status counts step_failed
-  shift
-  log=$logs/$(echo "$name" | tr -c 'a-zA-Z0-9\n' -).log
+  started=${started:-$(date +%s)}
+  step_run "$@"
+  step_count "$1"
+}
+
+# step_start NAME COMMAND...: the same side by side with others, as many as there are processors, until steps_finish
+step_start ()
+{
+  started=${started:-$(date +%s)}
+  if [ "$(echo "$running" | wc -w)" -ge "$(nproc)" ]; then
+    wait "${running%% *}"
+    running=${running#* }
+  fi
+  step_run "$@" &
+  running="$running$! "
+  begun=$begun$1'
+'
+}
+
+# steps_finish: counts what step_start began, in that order
+steps_finish ()
+{
+  local name names=$begun
+  # shellcheck disable=SC2086
+  wait $running
+  running= begun=
+  while IFS= read -r name; do
+    [ -z "$name" ] || step_count "$name"
+  done <<NAMES
+$names
+NAMES
+}
+
+step_log ()
+{
+  echo "$logs/$(echo "$1" | tr -c 'a-zA-Z0-9\n' -).log"
+}
+
+# Runs a step, and leaves its exit status and seconds beside its log.
+step_run ()
+{
+  local log begin status
+  log=$(step_log "$1")
   begin=$(date +%s)
-  started=${started:-$begin}
+  shift
   "$@" >"$log" 2>&1 </dev/null
   status=$?
-  seconds=$(($(date +%s) - begin))
-  spent=$spent$(printf '%6d s  %s' $seconds "$name")'
+  echo $status $(($(date +%s) - begin)) >"$log.status"
+}
+
+# Counts and prints what a step left, and answers whether nothing failed.
+step_count ()
+{
+  local name=$1 log seconds status counts step_failed
+  log=$(step_log "$name")
+  read -r status seconds <"$log.status"
+  spent=$spent$(printf '%6d s  %s' "$seconds" "$name")'
 '
   counts=$(sed -nE 's/^([a-z]+: )?([0-9]+) passed, ([0-9]+) failed(, ([0-9]+) skipped)?$/\2 \3 \5/p' "$log" | tail -n 1)
-  [ -n "$counts" ] || counts=$([ $status = 0 ] && echo 1 0 || echo 0 1)
+  [ -n "$counts" ] || counts=$([ "$status" = 0 ] && echo 1 0 || echo 0 1)
   # shellcheck disable=SC2086
   set -- $counts
   step_failed=$2
-  [ $status = 0 ] || [ "$step_failed" -gt 0 ] || step_failed=1
+  [ "$status" = 0 ] || [ "$step_failed" -gt 0 ] || step_failed=1
   passed=$((passed + $1)) failed=$((failed + step_failed)) skipped=$((skipped + ${3:-0}))
   printf '%-44s %4d s   %s passed, %s failed, %s skipped.\n' \
-    "$name" $seconds "$1" "$step_failed" "${3:-0}"
+    "$name" "$seconds" "$1" "$step_failed" "${3:-0}"
   [ "$step_failed" = 0 ] || { sed 's/^/    /' "$log" | tail -n 60; echo "    (all of it: $log)"; }
   [ "${3:-0}" = 0 ] || grep -i skip "$log" | sed 's/^/    /' | head
   [ "$step_failed" = 0 ]
