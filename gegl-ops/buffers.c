@@ -7,7 +7,6 @@
 #include <math.h>
 
 #define LEAST_HUE 0.02f /* difference of the channels of a pixel that is not grey, of 1; chosen */
-#define FAINT_HUE 12    /* of 255: of a picture that is not grey, more than compression makes; chosen */
 
 /* ------------------------------------------------------------------ reading */
 
@@ -99,24 +98,22 @@ celd_buffer_read_drawing (GeglBuffer *buffer, const GeglRectangle *rect, CeldInk
 }
 
 gboolean
-celd_buffer_has_hue (GeglBuffer *buffer)
+celd_buffer_is_coloured (GeglBuffer *buffer)
 {
   const GeglRectangle *extent = gegl_buffer_get_extent (buffer);
-  GeglRectangle        row = { extent->x, extent->y, extent->width, 1 };
-  guint8              *rgba;
-  gsize                hued = 0;
+  CeldPaint            paint = { extent->width, extent->height, (size_t) extent->width, NULL };
+  gboolean             coloured = FALSE;
 
   if (babl_format_get_n_components (gegl_buffer_get_format (buffer)) <= 2) /* grey, and alpha */
     return FALSE;
-  rgba = g_new (guint8, 4 * (gsize) row.width);
-  for (; row.y < extent->y + extent->height; row.y++)
+  paint.data = g_try_new (guint8, 4 * paint.stride * (gsize) paint.height);
+  if (paint.data)
     {
-      gegl_buffer_get (buffer, &row, 1, babl_format ("R'G'B'A u8"), rgba, GEGL_AUTO_ROWSTRIDE, GEGL_ABYSS_NONE);
-      for (const guint8 *p = rgba; p < rgba + 4 * (gsize) row.width; p += 4)
-        hued += p[3] && MAX (MAX (p[0], p[1]), p[2]) - MIN (MIN (p[0], p[1]), p[2]) > FAINT_HUE;
+      get (buffer, extent, "R'G'B'A u8", GEGL_ABYSS_NONE, paint.data);
+      coloured = celd_paint_is_coloured (&paint);
     }
-  g_free (rgba);
-  return 100 * hued > (gsize) extent->width * (gsize) extent->height;
+  g_free (paint.data);
+  return coloured;
 }
 
 static gboolean

@@ -25,7 +25,7 @@ CeldStatus celd_buffer_read_drawing (GeglBuffer *buffer, const GeglRectangle *re
                                      const CeldHost *host, CeldDrawing *drawing);
 
 /* Whether more than a hundredth of the buffer is in colour. */
-gboolean celd_buffer_has_hue (GeglBuffer *buffer);
+gboolean celd_buffer_is_coloured (GeglBuffer *buffer);
 
 /* Whether all values are numbers and finite, where alpha is above 0. */
 gboolean celd_buffer_has_numbers (GeglBuffer *buffer);

@@ -107,7 +107,7 @@ celd_op_check_scribbles (CeldOp *op, const char *drawing_pad, const CeldPaint *s
 gboolean
 celd_op_check_grey (CeldOp *op, const char *pad)
 {
-  return !celd_buffer_has_hue (celd_op_buffer (op, pad)) ||
+  return !celd_buffer_is_coloured (celd_op_buffer (op, pad)) ||
          celd_op_fail (op, _ ("The picture for '%s' (pad %s) is in colour: depth and levels are grey. Choose another "
                               "layer."), _ (celd_op_pad_label (op, pad)), pad);
 }

@@ -99,7 +99,7 @@ celd_pipeline_check_layers (CeldPipeline *p, const CeldPipelineInput *input, gui
 gboolean
 celd_pipeline_check_grey (const CeldPipelineLayer *layer, GError **error)
 {
-  if (celd_buffer_has_hue (layer->buffer))
+  if (celd_buffer_is_coloured (layer->buffer))
     return celd_pipeline_fail (error, _ ("The layer is in colour: depth is grey. Choose a layer with depth or levels."));
   return celd_buffer_has_numbers (layer->buffer) ||
          celd_pipeline_fail (error, _ ("The layer has values that are infinite or no number. Paint over them, or choose "

@@ -1,5 +1,5 @@
 /* Layers that are something else than they were given for: a photograph in place of scribbles, drawing and scribbles
- * exchanged.
+ * exchanged, colours in place of levels.
  *
  * Scribbles are told by their flat colours: neighbours that are equal are 0.88 of all pixels at least, in a photograph
  * less than 0.36; or if they are scanned by their blank page.
@@ -66,7 +66,7 @@ celd_are_scribbles (const CeldPaint *paint)
          blank_share (paint) >= LEAST_BLANK;
 }
 
-/* ------------------------------------------------------------------ drawing and scribbles exchanged */
+/* ------------------------------------------------------------------ grey or coloured */
 
 /* The difference of the largest and the least channel. */
 static int
@@ -93,6 +93,17 @@ celd_is_grey (const CeldPaint *paint)
             return false;
         }
   return painted;
+}
+
+bool
+celd_paint_is_coloured (const CeldPaint *paint)
+{
+  size_t hued = 0;
+
+  for (int y = 0; y < paint->height; y++)
+    for (int x = 0; x < paint->width; x++)
+      hued += CELD_RGBA (paint, x, y)[3] && hue_of (CELD_RGBA (paint, x, y)) > FAINT_HUE;
+  return 100 * hued > (size_t) paint->width * (size_t) paint->height;
 }
 
 bool

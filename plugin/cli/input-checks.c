@@ -9,8 +9,6 @@
 #include <math.h>
 #include <string.h>
 
-#define FAINT_HUE 0.05f /* of the channels of a picture that is not grey, of 1: more than JPEG makes; chosen */
-
 /* ------------------------------------------------------------------ the same file twice */
 
 static bool
@@ -124,36 +122,21 @@ cli_check_colours (const char *path, int width, int height, const float *rgba)
 
 /* ------------------------------------------------------------------ levels */
 
-/* Of a file whose colours are encoded. */
-static bool
-has_hue (CeldIoFile *file)
-{
-  CeldColours picture = { 0 };
-  size_t      hued = 0, n;
-
-  if (celd_io_part (file, 0)->grey || celd_io_part (file, 0)->linear || !cli_read_part (file, 0, false, &picture))
-    return false;
-  n = picture.stride * (size_t) picture.height;
-  for (size_t i = 0; i < n; i++)
-    {
-      const float *c = picture.data + 4 * i;
-
-      hued += c[3] > 0 && MAX (MAX (c[0], c[1]), c[2]) - MIN (MIN (c[0], c[1]), c[2]) > FAINT_HUE;
-    }
-  g_free (picture.data);
-  return 100 * hued > n;
-}
-
 bool
 cli_check_grey (const char *path)
 {
+  CeldPaint   picture = { 0 };
   CeldIoError error;
   CeldIoFile *file = cli_is_npy (path) ? NULL : celd_io_open (path, &error);
-  bool        coloured = file && has_hue (file);
+  bool        encoded = file && !celd_io_part (file, 0)->grey && !celd_io_part (file, 0)->linear;
+  bool        good = !encoded || cli_read_paint (file, 0, path, &picture);
 
   celd_io_close (file);
-  return !coloured || cli_error ("\"%s\" is coloured, but depth and levels are grey, such as popup writes them with "
-                                 "--levels or --depth.", path);
+  if (good && picture.data && celd_paint_is_coloured (&picture))
+    good = cli_error ("\"%s\" is coloured, but depth and levels are grey, such as popup writes them with --levels or "
+                      "--depth.", path);
+  g_free (picture.data);
+  return good;
 }
 
 bool

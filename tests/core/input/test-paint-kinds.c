@@ -113,6 +113,25 @@ fills (void)
   CHECK (!celd_is_coloured_strokes (&paint));
 }
 
+/* More than a hundredth of all pixels, by more than JPEG changes a channel. */
+static void
+colours (void)
+{
+  CeldPaint paint = layer (SIDE, SIDE);
+  int       least = SIDE * SIDE / 100 + 1;
+
+  for (int hue = 12; hue <= 13; hue++)
+    for (int n = least - 1; n <= least; n++)
+      {
+        for (int i = 0; i < SIDE * SIDE; i++)
+          put (i % SIDE, i / SIDE, 100, 100, 100 + (i < n ? hue : 0), 255);
+        CHECK (celd_paint_is_coloured (&paint) == (hue == 13 && n == least));
+      }
+  for (int i = 0; i < SIDE * SIDE; i++)
+    put (i % SIDE, i / SIDE, 200, 0, 0, 0);
+  CHECK (!celd_paint_is_coloured (&paint)); /* what is transparent has no colour */
+}
+
 int
 main (void)
 {
@@ -120,5 +139,6 @@ main (void)
   RUN (scanned_scribbles);
   RUN (grey_pictures);
   RUN (fills);
+  RUN (colours);
   return DONE;
 }
