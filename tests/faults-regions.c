@@ -19,21 +19,23 @@ ink_step (const CeldHost *host, Results *r)
   return celd_ink (&drawing, CELD_INK_AUTO, host, &ink);
 }
 
-/* A dark grey band between two lines, from top to bottom. */
+/* Two lines in grain, with a dark grey band between them, from top to bottom. */
 static CeldStatus
-bands_step (const CeldHost *host, Results *r)
+noisy_ink_step (const CeldHost *host, Results *r)
 {
-  enum { SIDE = 20 };
-  static uint8_t between[SIDE * SIDE];
-  static float   ink[SIDE * SIDE];
-  CeldPlane      plane = { SIDE, SIDE, SIDE, ink };
-  CeldMask       mask = { SIDE, SIDE, SIDE, between };
+  static Pixels page;
+  CeldDrawing   drawing = drawing_of (&page);
+  CeldPlane     ink = plane_of (r->pixels);
 
-  (void) host;
-  (void) r;
-  for (int i = 0; i < SIDE * SIDE; i++)
-    ink[i] = i % SIDE == 10 ? 0.3f : i % SIDE < 8 || i % SIDE > 12 ? 1 : 0;
-  return celd_ink_part_lines (&plane, &mask);
+  for (int i = 0; i < W * H; i++)
+    {
+      int   from_band = abs (i % W - W / 2);
+      float value = from_band == 0 ? 0.4f : from_band <= 3 ? 0 : 0.95f;
+
+      page.plane[i] = value + 0.0004f * (float) (i * i % 101);
+      page.alpha[i] = 1;
+    }
+  return celd_ink (&drawing, CELD_INK_AUTO, host, &ink);
 }
 
 static CeldStatus
@@ -364,7 +366,7 @@ background_step (const CeldHost *host, Results *r)
 
 const Step region_steps[] = {
   { "ink", ink_step, NULL, true },
-  { "bands between lines", bands_step, NULL, false },
+  { "noisy ink", noisy_ink_step, NULL, true },
   { "coloured lines", coloured_lines_step, NULL, true },
   { "lines of a sprite", sprite_lines_step, NULL, true },
   { "clarity of lines", clarity_step, NULL, true },

@@ -4,7 +4,7 @@
  * sketch (1983), though less than half as light as paper.  A line of even darkness has no valley.  Grain within a broad
  * stroke has short ones, which stay ink.
  *
- * Cost: the pixels that are grey ink; 4 bytes a pixel if there are bands.
+ * Cost: the pixels that are grey ink; 8 bytes a pixel if there are bands.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -15,7 +15,7 @@
 #define JUST_PAPER   0.5f  /* the darkest ink value that is paper */
 #define DIP          0.25f /* how much lighter than both lines the paper is, at least; chosen */
 #define BAND_REACH   4     /* pixels from such paper to the cores of both lines, at most; chosen */
-#define LEAST_BAND   12    /* pixels from end to end of a band: light spots of chalk within a stroke are shorter; chosen */
+#define LEAST_BAND   12    /* pixels from end to end: light spots of chalk within a stroke are shorter; chosen */
 
 /* Does a darker line begin at the pixel in direction (dx,dy)?  It ends where ink is lighter than the pixel. */
 static bool

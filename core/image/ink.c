@@ -10,8 +10,8 @@
  * 4. In a noisy drawing, bands of paper between lines are opened (ink-bands.c), and holes of grain in ink are filled
  *    (ink-grain.c).
  *
- * Cost: O(pixels), independent of the width of strokes; 6 bytes a pixel, 13 if there is noise, 17 with bands.  What is
- * taken from windows (levels, areas) is kept in bytes, in 255ths: finer steps would not be seen.
+ * Cost: O(pixels), independent of the width of strokes; 6 bytes a pixel, 13 if there is noise, 14 if there are bands.
+ * What is taken from windows (levels, areas) is kept in bytes, in 255ths: finer steps would not be seen.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -343,32 +343,50 @@ darken_pale (const float *restrict contrast, const uint8_t *restrict area, const
     }
 }
 
-/* Darkens the ink of row y of a drawing with pale strokes. */
+/* Writes the ink of n pixels from (x,y) on. */
 static void
-write_pale (const InkWork *w, int y, float *ink)
+write_piece (const InkWork *w, bool pale, int x, int y, int n, float *ink)
 {
   static const uint8_t unknown[CELD_PIECE] = { 0 };
+  const float         *contrast = &CELD_AT (&w->contrast, x, y);
+  const uint8_t       *level = &CELD_AT (&w->level, x, y);
   float                full = w->noisy ? 0.8f : 1; /* because of grain */
 
-  for (int x = 0, n; x < w->level.width; x += n)
-    {
-      const uint8_t *level = &CELD_AT (&w->level, x, y);
-
-      n = piece_at (x, w->level.width);
-      if (memcmp (level, unknown, (size_t) n)) /* most are */
-        darken_pale (&CELD_AT (&w->contrast, x, y), &CELD_AT (&w->area, x, y), level, full, n, ink + x);
-    }
+  write_dark (contrast, w->dark, n, ink);
+  if (pale && memcmp (level, unknown, (size_t) n)) /* most are */
+    darken_pale (contrast, &CELD_AT (&w->area, x, y), level, full, n, ink);
 }
 
+/* `ink` may be the plane of the contrast. */
 static void
 write_ink (const InkWork *w, bool pale, CeldPlane *ink)
 {
+  float piece[CELD_PIECE];
+
   for (int y = 0; y < ink->height; y++)
-    {
-      write_dark (&CELD_AT (&w->contrast, 0, y), w->dark, ink->width, &CELD_AT (ink, 0, y));
-      if (pale)
-        write_pale (w, y, &CELD_AT (ink, 0, y));
-    }
+    for (int x = 0, n; x < ink->width; x += n)
+      {
+        n = piece_at (x, ink->width);
+        write_piece (w, pale, x, y, n, piece);
+        memcpy (&CELD_AT (ink, x, y), piece, (size_t) n * sizeof *piece);
+      }
+}
+
+/* The ink of a noisy drawing, with bands and grain mended.  It takes the place of the contrast first, so that the result
+ * stays as it was if memory fails. */
+static CeldStatus
+write_noisy_ink (InkWork *w, bool pale, CeldPlane *ink)
+{
+  CeldStatus status;
+
+  write_ink (w, pale, &w->contrast);
+  status = celd_ink_part_lines (&w->contrast, &w->level);
+  if (status != CELD_OK)
+    return status;
+  celd_ink_fill_grain (&w->contrast, &w->level);
+  for (int y = 0; y < ink->height; y++)
+    memcpy (&CELD_AT (ink, 0, y), &CELD_AT (&w->contrast, 0, y), (size_t) ink->width * sizeof *ink->data);
+  return CELD_OK;
 }
 
 CeldStatus
@@ -392,12 +410,10 @@ celd_ink (const CeldDrawing *drawing, CeldInkMode mode, const CeldHost *host, Ce
       pale = find_levels (&w);
       status = pale ? spread_levels (&w) : CELD_OK;
     }
-  if (status == CELD_OK)
+  if (status == CELD_OK && w.noisy)
+    status = write_noisy_ink (&w, pale, ink);
+  else if (status == CELD_OK)
     write_ink (&w, pale, ink);
-  if (status == CELD_OK && w.noisy)
-    status = celd_ink_part_lines (ink, &w.level);
-  if (status == CELD_OK && w.noisy)
-    celd_ink_fill_grain (ink, &w.level);
   end_work (&w);
   return status;
 }
