@@ -40,6 +40,7 @@ celd_handles_between (const CeldHandleKey *key, size_t n, int frame, CeldHandles
       item[i] = (CeldHandle) { p->x, p->y, mix (p->to_x, q->to_x, t), mix (p->to_y, q->to_y, t),
                                mix (p->depth, q->depth, t) };
     }
+  celd_handles_clear (handles);
   *handles = (CeldHandles) { item, a->handles.n };
   return CELD_OK;
 }

@@ -107,15 +107,14 @@ handles_go_gently_from_key_to_key (void)
                                { { 10, 20, 50, 100, 2 }, { 1, 2, 1, 2, 0 } },
                                { { 10, 20, 0, 0, -1 }, { 1, 2, 1, 2, 0 } } };
   CeldHandleKey key[3] = { { 4, { item[0], 2 } }, { 8, { item[1], 2 } }, { 9, { item[2], 2 } } };
+  CeldHandles   h = { 0 };
   struct { int frame; double x, y, depth; } expected[] = {
     { 0, 10, 20, 0 }, { 4, 10, 20, 0 }, { 5, 16.25, 32.5, 0.3125 }, { 6, 30, 60, 1 }, { 7, 43.75, 87.5, 1.6875 },
     { 8, 50, 100, 2 }, { 9, 0, 0, -1 }, { 99, 0, 0, -1 },
   };
 
-  for (size_t i = 0; i < sizeof expected / sizeof *expected; i++)
+  for (size_t i = 0; i < sizeof expected / sizeof *expected; i++) /* those of one frame are replaced by the next one's */
     {
-      CeldHandles h = { 0 };
-
       CHECK (celd_handles_between (key, 3, expected[i].frame, &h) == CELD_OK && h.n == 2);
       NEAR (h.item[0].x, 10, 0);
       NEAR (h.item[0].y, 20, 0);
@@ -123,8 +122,8 @@ handles_go_gently_from_key_to_key (void)
       NEAR (h.item[0].to_y, expected[i].y, 0);
       NEAR (h.item[0].depth, expected[i].depth, 0);
       CHECK (!memcmp (&h.item[1], &item[0][1], sizeof (CeldHandle)));
-      celd_handles_clear (&h);
     }
+  celd_handles_clear (&h);
 }
 
 static void
