@@ -221,8 +221,8 @@ celd_pipeline_update (CeldPipeline *p, const CeldPipelineInput *input, guint lay
 {
   if (input->settings.ink != p->settings.ink)
     layers |= 1u << CELD_LAYER_DRAWING;
-  if (input->settings.flats != p->settings.flats)
-    layers |= 1u << CELD_LAYER_SCRIBBLES;
+  if (input->settings.flats != p->settings.flats) /* with flats neither is checked */
+    layers |= 1u << CELD_LAYER_DRAWING | 1u << CELD_LAYER_SCRIBBLES;
   return check_input (input, error) &&
          celd_pipeline_try (input->width == p->width && input->height == p->height ? CELD_OK : CELD_BAD_SIZE, error) &&
          celd_pipeline_try (set_settings (p, &input->settings), error) &&

@@ -421,6 +421,14 @@ unclear_lines_are_told (void)
   text = celd_pipeline_problems (pipeline);
   CHECK (text && strstr (text, "hardly has clear lines"));
   g_free (text);
+  input.settings.flats = TRUE;
+  CHECK (celd_pipeline_update (pipeline, &input, 0, NULL));
+  CHECK (celd_pipeline_problems (pipeline) == NULL);
+  input.settings.flats = FALSE;
+  CHECK (celd_pipeline_update (pipeline, &input, 0, NULL));
+  text = celd_pipeline_problems (pipeline);
+  CHECK (text && strstr (text, "hardly has clear lines"));
+  g_free (text);
   g_object_unref (input.layer[CELD_LAYER_DRAWING].buffer);
   input.layer[CELD_LAYER_DRAWING].buffer = drawing;
   CHECK (celd_pipeline_update (pipeline, &input, 1u << CELD_LAYER_DRAWING, NULL));
