@@ -13,7 +13,7 @@
 
 /* The drawing as it is, not the lines of a coloured one. */
 static gboolean
-check_lines (CeldOp *op, GeglBuffer *buffer)
+check_lines (CeldOp *op, GeglBuffer *buffer, gboolean *unsure)
 {
   CeldDrawing     drawing = { 0 };
   CeldLineClarity clarity;
@@ -21,11 +21,13 @@ check_lines (CeldOp *op, GeglBuffer *buffer)
   if (!celd_op_new_plane (op, &drawing.luma) ||
       (celd_buffer_has_alpha (buffer) && !celd_op_new_plane (op, &drawing.alpha)))
     return FALSE;
-  return celd_op_try (op, celd_buffer_read_drawing (buffer, &op->picture, CELD_INK_DARK, &op->quiet, &drawing)) &&
-         celd_op_try (op, celd_line_clarity (&drawing, &op->quiet, &clarity)) &&
-         ((op->operation->unsure_drawing = clarity == CELD_LINES_UNSURE) || clarity == CELD_LINES_CLEAR ||
-          celd_op_fail (op, _ ("The drawing looks like a photograph or a painting without lines. If it is a drawing, say "
-                               "with 'Ink' what its lines are.")));
+  if (!celd_op_try (op, celd_buffer_read_drawing (buffer, &op->picture, CELD_INK_DARK, &op->quiet, &drawing)) ||
+      !celd_op_try (op, celd_line_clarity (&drawing, &op->quiet, &clarity)))
+    return FALSE;
+  *unsure = clarity == CELD_LINES_UNSURE;
+  return clarity != CELD_LINES_NONE ||
+         celd_op_fail (op, _ ("The drawing looks like a photograph or a painting without lines. If it is a drawing, say "
+                              "with 'Ink' what its lines are."));
 }
 
 /* A page is blank until the artist has drawn something. */
@@ -43,33 +45,27 @@ check_ink (CeldOp *op)
                               "or another setting of 'Ink'."));
 }
 
-static gboolean
-warn_if_unsure (CeldOp *op)
-{
-  return !op->operation->unsure_drawing ||
-         celd_op_report_text (op, celd_unsure_lines_text ());
-}
-
-/* Checks a drawing, and whether the session has ink of it, unless it is the last good one. */
+/* Checks a drawing, and whether the session has ink of it, unless it is the last good one of the pad. */
 static gboolean
 check (CeldOp *op, const char *pad, const CeldDrawing *drawing, gboolean in_session)
 {
-  gsize   size = (gsize) op->picture.width * (gsize) op->picture.height * sizeof (float);
-  guint64 input = celd_op_settings_input (op);
+  gsize            size = (gsize) op->picture.width * (gsize) op->picture.height * sizeof (float);
+  guint64          input = celd_op_settings_input (op);
+  CeldGoodDrawing *good = &op->operation->good[!g_str_equal (pad, "input")];
 
   if (op->settings.flats)
     return TRUE;
   input = celd_op_add_input (input, drawing->luma.data, size);
   input = celd_op_add_input (input, drawing->alpha.data, size);
-  if (input == op->operation->good_drawing)
-    return warn_if_unsure (op);
-  op->operation->good_drawing = 0;
-  op->operation->unsure_drawing = FALSE;
-  if ((op->settings.ink == CELD_INK_AUTO && !check_lines (op, celd_op_buffer (op, pad))) ||
-      (in_session && !check_ink (op)))
-    return FALSE;
-  op->operation->good_drawing = input;
-  return warn_if_unsure (op);
+  if (input != good->input)
+    {
+      *good = (CeldGoodDrawing) { 0, FALSE };
+      if ((op->settings.ink == CELD_INK_AUTO && !check_lines (op, celd_op_buffer (op, pad), &good->unsure)) ||
+          (in_session && !check_ink (op)))
+        return FALSE;
+      good->input = input;
+    }
+  return !good->unsure || celd_op_report_text (op, celd_unsure_lines_text ());
 }
 
 gboolean

@@ -9,6 +9,8 @@
 void
 celd_op_add_line (CeldOp *op, const char *text)
 {
+  if (strstr (op->message->str, text)) /* of another drawing */
+    return;
   if (op->message->len)
     g_string_append_c (op->message, '\n');
   g_string_append (op->message, text);

@@ -86,6 +86,9 @@ typedef struct
 /* A result that an operation keeps between calls, and the fingerprint of what it was made of. */
 typedef struct { gpointer result; GDestroyNotify destroy; guint64 input; } CeldKept;
 
+/* The fingerprint of the last drawing that was not refused, 0 if there is none, and whether it may be a photograph. */
+typedef struct { guint64 input; gboolean unsure; } CeldGoodDrawing;
+
 typedef struct
 {
   GeglOperation parent_instance;
@@ -97,8 +100,7 @@ typedef struct
   char         *last_message;              /* of the last call; NULL if it had none */
   CeldSession  *session;           /* of operations that keep results between calls; made by celd_op_set_session */
   CeldKept      kept;
-  guint64       good_drawing;      /* the fingerprint of the last drawing that was not refused; 0: there is none */
-  gboolean      unsure_drawing;    /* whether it may be a photograph */
+  CeldGoodDrawing good[2];         /* of pad "input", and of another pad */
 } CeldOperation;
 
 typedef struct
