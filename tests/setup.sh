@@ -114,7 +114,8 @@ step ()
   step_count "$1"
 }
 
-# step_start NAME COMMAND...: the same side by side with others, as many as there are processors, until steps_finish
+# step_start NAME COMMAND...: the same side by side with others, as many as there are processors, until steps_finish.
+# For steps of about the same duration: the next one waits for the oldest.
 step_start ()
 {
   started=${started:-$(date +%s)}

@@ -92,8 +92,8 @@ CELD_API bool       celd_relation_by_colour (const CeldLabels *labels, const Cel
  * frame whose ink is `next`; 0 on ink and close to it.  `certainty` gets how far moved parts and labels agree in each
  * closed shape there, [0,1]; 0 on ink. */
 CELD_API CeldStatus celd_propagate (const CeldPlane *ink, const CeldLabels *source, const uint32_t *level,
-                                    uint32_t background, const CeldPlane *next, const CeldHost *host, CeldLabels *labels,
-                                    CeldPlane *certainty);
+                                    uint32_t background, const CeldPlane *next, const CeldHost *host,
+                                    CeldLabels *labels, CeldPlane *certainty);
 /* How sure each label is that was carried from the frame `before`, of all of whose pixels it has labels, to the frame
  * `after`; `back` has those of `after` as celd_propagate carries them back to `before`, where 0 does not count.
  * sure[1] to sure[n] get the share of pixels that came back, or the ratio of both areas if that is less: from 0,
@@ -110,8 +110,8 @@ CELD_API CeldStatus celd_rate_returned (const CeldLabels *before, const CeldLabe
 CELD_API CeldStatus celd_note_regions (const CeldPlane *ink, const CeldLabels *before, const CeldLabels *after,
                                        const CeldPlane *certainty, size_t n, uint32_t background, const double *sure,
                                        CeldRegionNote *item, size_t *n_items, double *mean);
-/* Should a person look at a frame with these notes and this certainty, the mean over all its regions or that of an
- * earlier frame if that is less? */
+/* Whether a person should look at a frame with these notes.  `certainty` is the mean over all its regions, or the least
+ * of such means since the key if that is less. */
 CELD_API bool       celd_wants_review (const CeldRegionNote *note, size_t n, double certainty);
 
 /* Makes one picture of labels that were propagated to a frame from two keys, one on either side.  Where they differ a
@@ -124,7 +124,8 @@ CELD_API CeldStatus celd_blend_propagated (const CeldPropagated side[2], const C
                                            CeldPlane *certainty);
 /* How sure each of these blended labels is, from side_sure[k][1] to side_sure[k][n] of celd_rate_returned on each side:
  * sure[1] to sure[n] get the better of both, times the share of the label's pixels that this side has, but no more than
- * the share of pixels in which both agree; sure[0] is left alone.  CELD_BAD_VALUE for labels beyond n. */
+ * the intersection over union of the label's areas on both sides; sure[0] is left alone.  CELD_BAD_VALUE for labels
+ * beyond n. */
 CELD_API CeldStatus celd_rate_blended (const CeldLabels *const side[2], const double *const side_sure[2],
                                        const CeldLabels *labels, size_t n, double *sure);
 
@@ -172,7 +173,8 @@ CELD_API void       celd_pose_worst  (const CeldPoseReport *report, CeldPoseRepo
 /* Draws a puppet in its pose, with straight alpha in the colour space of the layers: parts from back to front by their
  * levels, changed by the depth of handles near them.  `levels` (may be NULL) gets the level of the nearest part that
  * covers half of a pixel.  A puppet at rest gives its drawing back. */
-CELD_API CeldStatus celd_puppet_draw (CeldPuppet *puppet, const CeldHost *host, CeldColours *picture, CeldPlane *levels);
+CELD_API CeldStatus celd_puppet_draw (CeldPuppet *puppet, const CeldHost *host, CeldColours *picture,
+                                      CeldPlane *levels);
 
 /* The layers of a puppet, those that it was made of: their number, and each as it lies in the pose. */
 CELD_API size_t celd_puppet_count (const CeldPuppet *puppet);

@@ -58,7 +58,8 @@ CELD_API bool celd_are_scribbles (const CeldPaint *paint);
 CELD_API bool celd_is_grey (const CeldPaint *paint);
 CELD_API bool celd_is_coloured_strokes (const CeldPaint *paint);
 
-/* Whether more than a hundredth of a picture is in colour, by more than JPEG makes of grey: levels and depth are not. */
+/* Whether more than a hundredth of a picture is in colour, by more than JPEG makes of grey: levels and depth are
+ * not. */
 CELD_API bool celd_paint_is_coloured (const CeldPaint *paint);
 
 /* Whether labels of flat colours, and finite levels, can be such: no photograph can.  For hosts, as those above. */

@@ -372,8 +372,8 @@ write_ink (const InkWork *w, bool pale, CeldPlane *ink)
       }
 }
 
-/* The ink of a noisy drawing, with bands and grain mended.  It takes the place of the contrast first, so that the result
- * stays as it was if memory fails. */
+/* The ink of a noisy drawing, with bands and grain mended.  It takes the place of the contrast first, so that the
+ * result stays as it was if memory fails. */
 static CeldStatus
 write_noisy_ink (InkWork *w, bool pale, CeldPlane *ink)
 {

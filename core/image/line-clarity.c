@@ -7,13 +7,14 @@
  * 0.44; of 108 photographs 87 have more than 0.46, and so have 6 of 66 drawings that are hard to read: faint on grain,
  * with much soft shading, or photographed with the desk that they lie on.
  *
- * Where that share is large, it is no drawing if one of two other measures says so, too.  One is how well the values
- * separate into two classes, by Otsu's measure [A threshold selection method from gray-level histograms, 1979]: the
- * variance between the classes as a fraction of all variance.  Those 6 drawings have 0.73 at least.  The other is the
- * variation that stays in the closed picture, as a fraction of all variation: where lines explain a picture, little
- * does.  Those 6 have 0.05 at most.  70 of the photographs have less than 0.72, or more than 0.07.
+ * The values must also separate into two classes, by Otsu's measure [A threshold selection method from gray-level
+ * histograms, 1979]: the variance between the classes as a fraction of all variance.  Where it is less than 0.72, as in
+ * none of these drawings, the picture is refused.  So it is if the share is large and more than 0.07 of all variation
+ * stays in the closed picture: where lines explain a picture, little does, in those 6 drawings 0.05 at most.  Both
+ * refuse 70 of the photographs.  Otherwise a large share is only a reason to warn.
  *
- * Grain hides lines, so a picture without clear ones is also smoothed.
+ * Grain hides lines, so a picture without clear ones is also smoothed.  A picture without an edge is shade alone, and
+ * refused at once.
  *
  * Cost: O(pixels), at most eight closings, one for most drawings; 2 bytes a pixel.
  *
@@ -132,6 +133,13 @@ static bool
 is_clear (const ClarityWork *w)
 {
   return w->partial < MANY_PARTIAL && w->classes >= LEAST_CLASSES;
+}
+
+/* Of a picture whose lines are not clear. */
+static bool
+is_without_lines (const ClarityWork *w)
+{
+  return w->classes < LEAST_CLASSES || (w->radius >= LEAST_RADIUS && w->stays >= MUCH_STAYS);
 }
 
 /* What a closing adds to the picture, and what it leaves if there are still no clear lines. */
@@ -302,8 +310,7 @@ celd_line_clarity (const CeldDrawing *drawing, const CeldHost *host, CeldLineCla
         {
           status = measure_picture (&w);
           if (!is_clear (&w))
-            found = w.classes < LEAST_CLASSES || (w.radius >= LEAST_RADIUS && w.stays >= MUCH_STAYS) ? CELD_LINES_NONE
-                                                                                                     : CELD_LINES_UNSURE;
+            found = is_without_lines (&w) ? CELD_LINES_NONE : CELD_LINES_UNSURE;
         }
     }
   end_work (&w);

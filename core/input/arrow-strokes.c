@@ -3,7 +3,7 @@
  * The form of a stroke decides which end is nearer; its colour also says whether registration may tear there (blue).
  * Strokes that cross are each followed straight on (crossing-strokes.c).
  *
- * Cost: a few sweeps over the pixels of each stroke.
+ * Cost: a few passes over the pixels of each stroke.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */

@@ -13,7 +13,7 @@
  *
  * Strokes that are unclear, or whose arrowhead contradicts their fade or taper, are reported and never guessed.
  *
- * Cost: a few sweeps over the pixels of each stroke.
+ * Cost: a few passes over the pixels of each stroke.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */

@@ -421,7 +421,7 @@ CeldPoint celd_line_sums_point (const CeldLineSums *sums, CeldPoint prior);
 /* ------------------------------------------------------------------ joined-arrows.c */
 
 /* Appends the arrows of connected paint of one colour whose ends meet, and a problem for each long line that is
- * unclear. *any: there are such arrows, at least two; else nothing is appended. */
+ * unclear.  *any: there are such arrows, at least two; else nothing is appended. */
 CeldStatus celd_joined_arrows_read (CeldArrowStroke *stroke, const CeldArrowLayer *layer, CeldArrowStyle style,
                                     CeldRelations *relations, CeldProblems *problems, bool *any);
 

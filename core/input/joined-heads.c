@@ -11,10 +11,10 @@
 #include <math.h>
 
 /* All chosen; lengths are widths of the paint. */
-#define MOST_MOVED 1.8 /* from where the lines meet to a node's place */
-#define CLEAR_SIDE 0.8 /* score of each barb of a head that is beyond doubt */
-#define MOST_REST  4.5 /* square widths of paint at a node that are not explained, ... */
-#define DOT_REACH  9   /* ... in this distance, if there is a dot: a short branch may lead to another one */
+#define MOST_MOVED  1.8  /* from where the lines meet to a node's place */
+#define CLEAR_SIDE  0.8  /* score of each barb of a head that is beyond doubt */
+#define MOST_REST   4.5  /* square widths of paint at a node that are not explained, ... */
+#define DOT_REACH   9    /* ... in this distance, if there is a dot: a short branch may lead to another one */
 #define MOST_MARGIN 0.33 /* part of a line at each of its ends where other paint may be beside it */
 
 #define UNCLEAR -1 /* none of them, or it is not known which */
@@ -251,8 +251,8 @@ static CeldLineArrows
 arrows_of (const Heads *s, size_t k)
 {
   const CeldJoinedEnd *e = &s->lines->end[2 * k];
-  CeldLineArrows     a = { .n = s->marked[k] == UNCLEAR ? 0 : s->marked[k] == BOTH ? 2 : 1 };
-  CeldPoint          corner = e[0].tip;
+  CeldLineArrows       a = { .n = s->marked[k] == UNCLEAR ? 0 : s->marked[k] == BOTH ? 2 : 1 };
+  CeldPoint            corner = e[0].tip;
 
   if (a.n == 2)
     celd_stroke_line_corner (&s->lines->graph, k, &corner);

@@ -101,8 +101,8 @@ celd_joined_find_barbs (const CeldJoinedLines *s, CeldJoinedEnd *e)
 static void
 find_head (const CeldJoinedLines *s, CeldJoinedEnd *e)
 {
-  double      w = s->graph.width, best = -1, n = 0;
-  CeldPoint   start = e->tip, sum = { 0, 0 };
+  double        w = s->graph.width, best = -1, n = 0;
+  CeldPoint     start = e->tip, sum = { 0, 0 };
   CeldJoinedEnd found = *e;
 
   for (int round = 0; round < 2; round++)

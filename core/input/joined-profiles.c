@@ -10,7 +10,7 @@
 #include <math.h>
 #include <string.h>
 
-#define CORNER_REACH 6   /* widths from a corner to where the directions of its sides are measured; chosen */
+#define CORNER_REACH 6 /* widths from a corner to where the directions of its sides are measured; chosen */
 
 /* A part of a line, from a point to another.  Of its ends: the place where others meet it, and the widths round there
  * where the paint is theirs, too; 0 = none meet it. */
@@ -86,7 +86,7 @@ read_corner (CeldJoinedLines *s, const LinePart *whole, const CeldArrowLayer *la
   LinePart              part[2] = { *whole, *whole };
   CeldPoint             corner;
   size_t                at = 0;
-  double                reach = CORNER_REACH * s->graph.width;
+  double                reach = CORNER_REACH * s->graph.width, apart;
   int                   tail[2] = { -1, -1 };
   CeldStatus            status = CELD_OK;
 
@@ -95,10 +95,11 @@ read_corner (CeldJoinedLines *s, const LinePart *whole, const CeldArrowLayer *la
   for (size_t i = 1; i < line->n; i++)
     if (celd_points_apart (line->at[i], corner) < celd_points_apart (line->at[at], corner))
       at = i;
+  apart = celd_widths_apart (from_corner (line, at, -reach), from_corner (line, at, reach));
   part[0].to       = part[1].from     = at;
   part[0].place[1] = part[1].place[0] = corner;
-  part[0].apart[1] = part[1].apart[0] = celd_widths_apart (from_corner (line, at, -reach), from_corner (line, at, reach));
-  for (int i = 0; i < 2 && status == CELD_OK && part[0].apart[1] <= CELD_MOST_APART; i++)
+  part[0].apart[1] = part[1].apart[0] = apart;
+  for (int i = 0; i < 2 && status == CELD_OK && apart <= CELD_MOST_APART; i++)
     status = read_part (s, &part[i], layer, to, &tail[i]);
   if (tail[0] < 0 || tail[1] < 0)
     to->n = 0;

@@ -41,8 +41,8 @@ rate (const Count *count, double first, double second)
 }
 
 CeldStatus
-celd_rate_blended (const CeldLabels *const side[2], const double *const side_sure[2], const CeldLabels *labels, size_t n,
-                   double *sure)
+celd_rate_blended (const CeldLabels *const side[2], const double *const side_sure[2], const CeldLabels *labels,
+                   size_t n, double *sure)
 {
   Count *count;
 

@@ -1,5 +1,5 @@
-/* One level for each region: the median of its pixels.  Expanded levels differ from it in ink, where a line that a
- * nearer region owns crosses its border, which is less than half of any region.
+/* One level for each region: the median of its pixels.  Expanded levels differ from it in ink that a nearer region
+ * owns, which is less than half of a region unless that is narrower than its lines.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
