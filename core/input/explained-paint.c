@@ -20,10 +20,7 @@
 static void
 explain_disc (CeldJoinedLines *s, CeldPoint c, double r)
 {
-  for (int y = (int) fmax (0, c.y - r); y <= c.y + r && y < s->mask.height; y++)
-    for (int x = (int) fmax (0, c.x - r); x <= c.x + r && x < s->mask.width; x++)
-      if (hypot (x + 0.5 - c.x, y + 0.5 - c.y) <= r)
-        s->explained[(size_t) y * (size_t) s->mask.width + (size_t) x] = 1;
+  celd_joined_fill_disc (s, c, r, 1, s->explained);
 }
 
 /* Marks the paint of a straight line as explained. */

@@ -8,6 +8,7 @@
 #include "input/joined-arrows.h"
 
 #include <math.h>
+#include <string.h>
 
 /* All chosen; lengths are widths of the paint. */
 #define TIP_CUT    4 /* of a line from its end to a cut, beyond which the end is the farthest paint */
@@ -20,13 +21,8 @@
 static CeldStatus
 take_to_cut (const CeldJoinedLines *s, size_t end, CeldPoint cut, CeldJoinedPiece *piece)
 {
-  for (int y = 0; y < s->mask.height; y++)
-    for (int x = 0; x < s->mask.width; x++)
-      {
-        size_t p = (size_t) y * (size_t) s->mask.width + (size_t) x;
-
-        s->may_take[p] = s->mask.painted[p] && hypot (x + 0.5 - cut.x, y + 0.5 - cut.y) >= s->graph.width + 1;
-      }
+  memcpy (s->may_take, s->mask.painted, (size_t) s->mask.width * (size_t) s->mask.height);
+  celd_joined_fill_disc (s, cut, s->graph.width + 1, 0, s->may_take);
   return celd_joined_take (s, celd_joined_point (s, end, 1), piece);
 }
 

@@ -115,6 +115,10 @@ typedef struct { CeldArrowStroke stroke; uint32_t *pixel; size_t capacity; } Cel
 CeldStatus celd_joined_take (const CeldJoinedLines *lines, CeldPoint start, CeldJoinedPiece *piece);
 void       celd_joined_release (CeldJoinedPiece *piece);
 
+/* Sets the pixels of a disc in `pixels`, which is `explained` or `may_take`. */
+void celd_joined_fill_disc (const CeldJoinedLines *lines, CeldPoint centre, double radius, uint8_t value,
+                            uint8_t *pixels);
+
 /* ------------------------------------------------------------------ explained-paint.c */
 
 /* Marks as explained the paint of all lines, with their ends led to the tips; nothing else is. */

@@ -6,6 +6,7 @@
 #include "input/joined-arrows.h"
 
 #include <math.h>
+#include <string.h>
 
 /* Collects the paint that may be taken and is connected with a pixel of the mask.  Pixels have eight neighbours, as
  * those of all strokes do; no paint is on the border. */
@@ -55,4 +56,18 @@ celd_joined_release (CeldJoinedPiece *piece)
   for (size_t i = 0; i < piece->stroke.n; i++)
     piece->stroke.distance[piece->pixel[i]] = INFINITY;
   celd_free (piece->pixel);
+}
+
+/* Row by row: discs along a broad line are many and large. */
+void
+celd_joined_fill_disc (const CeldJoinedLines *s, CeldPoint c, double r, uint8_t value, uint8_t *pixels)
+{
+  for (int y = (int) fmax (0, ceil (c.y - r - 0.5)); y + 0.5 <= c.y + r && y < s->mask.height; y++)
+    {
+      double half = sqrt (fmax (0, r * r - (y + 0.5 - c.y) * (y + 0.5 - c.y)));
+      int    left = (int) fmax (0, ceil (c.x - half - 0.5)), end = (int) fmin (s->mask.width, floor (c.x + half + 0.5));
+
+      if (left < end)
+        memset (pixels + (size_t) y * (size_t) s->mask.width + left, value, (size_t) (end - left));
+    }
 }

@@ -25,21 +25,23 @@ is_apart (const CeldJoinedLines *s, const LinePart *part, CeldPoint p)
   return true;
 }
 
-/* Lets the paint round a point of a part be taken, as far as it is wide there. */
+/* Lets the paint of a part be taken, as far as the part is wide, and as it is apart from others. */
 static void
-allow_paint (CeldJoinedLines *s, const LinePart *part, CeldPoint c)
+allow_paint (CeldJoinedLines *s, const LinePart *part)
 {
-  double r = sqrt (s->mask.squared[celd_joined_pixel (s, c)]) + 1;
+  const CeldStrokeLine *line = &s->graph.line[part->line];
+  size_t                p = 0;
 
-  for (int y = (int) fmax (0, c.y - r); y <= c.y + r && y < s->mask.height; y++)
-    for (int x = (int) fmax (0, c.x - r); x <= c.x + r && x < s->mask.width; x++)
-      {
-        CeldPoint p = { x + 0.5, y + 0.5 };
-        size_t    i = celd_joined_pixel (s, p);
+  memset (s->may_take, 0, (size_t) s->mask.width * (size_t) s->mask.height);
+  for (size_t i = part->from; i <= part->to; i++)
+    {
+      double r = sqrt (s->mask.squared[celd_joined_pixel (s, line->at[i])]) + 1;
 
-        if (s->mask.painted[i] && celd_points_apart (c, p) <= r && is_apart (s, part, p))
-          s->may_take[i] = 1;
-      }
+      celd_joined_fill_disc (s, line->at[i], r, 1, s->may_take);
+    }
+  for (int y = 0; y < s->mask.height; y++)
+    for (int x = 0; x < s->mask.width; x++, p++)
+      s->may_take[p] = s->may_take[p] && s->mask.painted[p] && is_apart (s, part, (CeldPoint) { x + 0.5, y + 0.5 });
 }
 
 /* The arrow of a part.  *tail: the end of the part that is nearer; -1 if its opacity or width does not say. */
@@ -52,9 +54,7 @@ read_part (CeldJoinedLines *s, const LinePart *part, const CeldArrowLayer *layer
   CeldStatus            status;
 
   *tail = -1;
-  memset (s->may_take, 0, (size_t) s->mask.width * (size_t) s->mask.height);
-  for (size_t i = part->from; i <= part->to; i++)
-    allow_paint (s, part, line->at[i]);
+  allow_paint (s, part);
   status = celd_joined_take (s, line->at[(part->from + part->to) / 2], &piece);
   if (status == CELD_OK && piece.stroke.n >= CELD_LEAST_STROKE &&
       celd_arrow_profile (&piece.stroke, layer, s->style, &ends))
