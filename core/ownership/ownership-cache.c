@@ -3,7 +3,8 @@
  *
  * This works because the result of claims is independent of their order (claims.c): a tile is reset and claimed again
  * by all claims that touch it, without any effect on other tiles.  Unclaimed ink is assigned again by connected
- * components, each of which depends on the pixels beside it alone.
+ * components, each of which depends on the pixels beside it alone.  What was reassigned after that is reverted before
+ * an edit, and found again from all owners.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -110,7 +111,7 @@ spread_again (const CeldClaimMap *c, CeldTiles *tiles)
   return status;
 }
 
-/* ------------------------------------------------------------------ corrections */
+/* ------------------------------------------------------------------ enclosed ink and corrections */
 
 static void
 mark_reassigned (const CeldReassigned *reassigned, int width, CeldTiles *tiles)
@@ -120,7 +121,7 @@ mark_reassigned (const CeldReassigned *reassigned, int width, CeldTiles *tiles)
 }
 
 static void
-revert_corrections (CeldOwnershipCache *kept, CeldTiles *tiles)
+revert_reassigned (CeldOwnershipCache *kept, CeldTiles *tiles)
 {
   int width = kept->owner.width;
 
@@ -132,13 +133,12 @@ revert_corrections (CeldOwnershipCache *kept, CeldTiles *tiles)
 }
 
 static CeldStatus
-apply_corrections (const CeldOwnershipInput *in, CeldOwnershipCache *kept, CeldTiles *tiles)
+reassign (const CeldOwnershipInput *in, CeldOwnershipCache *kept)
 {
-  CeldStatus status = CELD_OK;
+  CeldStatus status = celd_enclosed_ink_join (&kept->excess, &kept->owner, &kept->reassigned);
 
-  if (in->corrections)
+  if (status == CELD_OK && in->corrections)
     status = celd_corrections_apply (&kept->pens, in->ink, in->corrections, &kept->owner, &kept->reassigned);
-  mark_reassigned (&kept->reassigned, in->ink->width, tiles);
   return status;
 }
 
@@ -259,8 +259,8 @@ celd_ownership_cache_make (const CeldOwnershipInput *input, const CeldHost *host
   if (status == CELD_OK)
     status = celd_claims_assign (&kept->pens, input->ink, input->labels, kept->solid, &second, &kept->owner,
                                  &kept->excess);
-  if (status == CELD_OK && input->corrections)
-    status = celd_corrections_apply (&kept->pens, input->ink, input->corrections, &kept->owner, &kept->reassigned);
+  if (status == CELD_OK)
+    status = reassign (input, kept);
   if (status == CELD_OK)
     celd_ownership_coverage (input->ink, &kept->owner, input->level, (CeldRect) { 0, 0, w, h }, false, ownership);
   celd_free (solid);
@@ -271,7 +271,7 @@ celd_ownership_cache_make (const CeldOwnershipInput *input, const CeldHost *host
 
 /* ------------------------------------------------------------------ updates */
 
-/* Updates owners after a change of labels or levels; corrections have to be reverted before. */
+/* Updates owners after a change of labels or levels; what is reassigned has to be reverted before. */
 static CeldStatus
 update_owners (const CeldOwnershipInput *in, CeldRect new_labels, const CeldHost *host, CeldOwnershipCache *kept,
                CeldTiles *tiles)
@@ -306,13 +306,15 @@ celd_ownership_cache_update (const CeldOwnershipInput *input, CeldRect new_label
   CeldStatus status = celd_tiles_new (input->ink->width, input->ink->height, &tiles);
 
   if (status == CELD_OK)
-    revert_corrections (kept, &tiles);
+    revert_reassigned (kept, &tiles);
   if (status == CELD_OK && (!same || new_labels.width))
     status = update_owners (input, new_labels, host, kept, &tiles);
   if (status == CELD_OK)
-    status = apply_corrections (input, kept, &tiles);
+    status = reassign (input, kept);
   if (status == CELD_OK)
     status = celd_progress (host, 1);
+  if (status == CELD_OK)
+    mark_reassigned (&kept->reassigned, kept->owner.width, &tiles);
   if (status == CELD_OK)
     *changed = update_record (input, kept, !same, &tiles, ownership);
   else

@@ -183,13 +183,15 @@ own_by_thickness (const CeldPlane *ink, const CeldLabels *labels, const uint32_t
 
 static CeldStatus
 own_by_outlines (const CeldContourPens *pens, const CeldPlane *ink, const CeldLabels *labels, const CeldHost *host,
-                 CeldOwnership *own)
+                 CeldOwnership *own, CeldReassigned *reassigned)
 {
   bool      *solid = celd_alloc (pens->n, sizeof *solid);
   CeldStatus status = solid ? celd_solid_labels_find (pens, ink, labels, solid) : CELD_NO_MEMORY;
 
   if (status == CELD_OK)
     status = celd_claims_assign (pens, ink, labels, solid, host, &own->owner, &own->coverage);
+  if (status == CELD_OK)
+    status = celd_enclosed_ink_join (&own->coverage, &own->owner, reassigned);
   celd_free (solid);
   return status;
 }
@@ -214,7 +216,7 @@ own_ink (const CeldPlane *ink, const CeldLabels *labels, const uint32_t *level, 
         status = celd_contour_pens_new (&edges, labels, level, n, &pens);
     }
   if (status == CELD_OK && method == CELD_EXPANSION_OUTLINES)
-    status = own_by_outlines (&pens, ink, labels, &second, own);
+    status = own_by_outlines (&pens, ink, labels, &second, own, &reassigned);
   else if (status == CELD_OK)
     status = own_by_thickness (ink, labels, level, &second, &own->owner);
   if (status == CELD_OK && corrections)

@@ -274,16 +274,24 @@ CeldStatus celd_claims_finish (const CeldClaimMap *claims);  /* lists the pixels
 /* Writes the up to four neighbours of a pixel; returns their number. */
 int celd_pixel_neighbours (const CeldPlane *ink, int32_t pixel, int near[4][2]);
 
-/* ------------------------------------------------------------------ corrections.c */
-
-/* The pixels that corrections reassigned, in this order, with their former owners. */
+/* The pixels that were reassigned after all claims, in this order, with their former owners. */
 typedef struct { CeldPixelOwner *item; size_t n, capacity; } CeldReassigned;
+
+void celd_reassigned_clear (CeldReassigned *reassigned);
+
+/* ------------------------------------------------------------------ enclosed-ink.c */
+
+/* Gives pieces of ink that have no paper of their owner beside them, and lie wholly within what another label owns, to
+ * that label.  `excess` is that of the claims.  Appends the pixels to `reassigned`.  CELD_NO_MEMORY is the only
+ * failure; then nothing is changed. */
+CeldStatus celd_enclosed_ink_join (const CeldPlane *excess, CeldLabels *owner, CeldReassigned *reassigned);
+
+/* ------------------------------------------------------------------ corrections.c */
 
 /* Gives the ink under strokes (0 = no stroke), and the pieces of line that they touch, to the strokes' labels.
  * Appends the reassigned pixels to `reassigned`, also when it fails. */
 CeldStatus celd_corrections_apply (const CeldContourPens *pens, const CeldPlane *ink, const CeldLabels *corrections,
                                    CeldLabels *owner, CeldReassigned *reassigned);
-void       celd_reassigned_clear (CeldReassigned *reassigned);
 
 /* ------------------------------------------------------------------ expansion.c, expansion-region.c */
 
@@ -325,9 +333,9 @@ typedef struct
   CeldContourPens  pens;        /* includes level and n */
   uint32_t        *level;       /* owned; NULL: the cache is empty */
   bool            *solid;
-  CeldLabels       owner;       /* label that covers most of each pixel, after corrections */
+  CeldLabels       owner;       /* label that covers most of each pixel, after all that is reassigned */
   CeldPlane        excess;      /* see CeldClaimMap */
-  CeldReassigned   reassigned;  /* pixels of `owner` that corrections changed */
+  CeldReassigned   reassigned;  /* pixels of `owner` that enclosed ink and corrections changed */
 } CeldOwnershipCache;
 
 /* What ownership is computed from. */
