@@ -282,8 +282,8 @@ void celd_reassigned_clear (CeldReassigned *reassigned);
 /* ------------------------------------------------------------------ enclosed-ink.c */
 
 /* Gives pieces of ink that have no paper of their owner beside them, and lie wholly within what another label owns, to
- * that label.  `excess` is that of the claims.  Appends the pixels to `reassigned`.  CELD_NO_MEMORY is the only
- * failure; then nothing is changed. */
+ * that label.  `excess` is that of the claims.  Appends the pixels to `reassigned`, also when it fails, which
+ * CELD_NO_MEMORY alone makes it do. */
 CeldStatus celd_enclosed_ink_join (const CeldPlane *excess, CeldLabels *owner, CeldReassigned *reassigned);
 
 /* ------------------------------------------------------------------ corrections.c */
