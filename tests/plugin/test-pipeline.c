@@ -393,6 +393,16 @@ problems_are_told (void)
   celd_pipeline_free (pipeline);
 }
 
+static gboolean
+warns_of_lines (CeldPipeline *pipeline)
+{
+  char    *text = celd_pipeline_problems (pipeline);
+  gboolean warns = text && strstr (text, "hardly has clear lines");
+
+  g_free (text);
+  return warns;
+}
+
 /* What may be a photograph is used, with a warning, until the artist says what its lines are, or draws it. */
 static void
 unclear_lines_are_told (void)
@@ -401,15 +411,12 @@ unclear_lines_are_told (void)
   CeldPipelineInput input = page_input ();
   CeldPipeline     *pipeline;
   GArray           *list;
-  char             *text;
 
   for (int i = 0; i < PIXELS; i++)
     faint[i] = faint_at (i);
   input.layer[CELD_LAYER_DRAWING].buffer = page_buffer ("Y' u8", "Y' float", faint);
   pipeline = celd_pipeline_new (&input, NULL);
-  text = celd_pipeline_problems (pipeline);
-  CHECK (text && strstr (text, "hardly has clear lines"));
-  g_free (text);
+  CHECK (warns_of_lines (pipeline));
   list = celd_pipeline_problem_list (pipeline);
   CHECK (list->len == 1 && strstr (g_array_index (list, CeldPipelineProblem, 0).text, "hardly has clear lines"));
   g_array_unref (list);
@@ -418,17 +425,13 @@ unclear_lines_are_told (void)
   CHECK (celd_pipeline_problems (pipeline) == NULL);
   input.settings.ink = CELD_INK_AUTO;
   CHECK (celd_pipeline_update (pipeline, &input, 0, NULL));
-  text = celd_pipeline_problems (pipeline);
-  CHECK (text && strstr (text, "hardly has clear lines"));
-  g_free (text);
+  CHECK (warns_of_lines (pipeline));
   input.settings.flats = TRUE;
   CHECK (celd_pipeline_update (pipeline, &input, 0, NULL));
   CHECK (celd_pipeline_problems (pipeline) == NULL);
   input.settings.flats = FALSE;
   CHECK (celd_pipeline_update (pipeline, &input, 0, NULL));
-  text = celd_pipeline_problems (pipeline);
-  CHECK (text && strstr (text, "hardly has clear lines"));
-  g_free (text);
+  CHECK (warns_of_lines (pipeline));
   g_object_unref (input.layer[CELD_LAYER_DRAWING].buffer);
   input.layer[CELD_LAYER_DRAWING].buffer = drawing;
   CHECK (celd_pipeline_update (pipeline, &input, 1u << CELD_LAYER_DRAWING, NULL));
