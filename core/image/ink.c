@@ -24,6 +24,7 @@
 #define NOISELESS     0.003f  /* noise below this comes from rounding to 8 bits */
 #define NEAR_CLEAN    5       /* pixels: a pale line so near to a dark one may be its antialiased tip; chosen */
 #define NEAR_NOISY    2       /* pixels from the core of a pencil line to its edge; chosen */
+#define ROW_PART      1024    /* pixels of a row that are written at a time; chosen */
 #define INK_PASSES    13      /* over the picture in the longest case, of about the same duration: for progress */
 
 typedef struct
@@ -343,32 +344,38 @@ darken_pale (const float *restrict contrast, const uint8_t *restrict area, const
     }
 }
 
-/* Writes the ink of n pixels from (x,y) on. */
+/* Darkens the ink of n pixels from (left,y) on, of a drawing with pale strokes. */
 static void
-write_piece (const InkWork *w, bool pale, int x, int y, int n, float *ink)
+write_pale (const InkWork *w, int left, int y, int n, float *ink)
 {
   static const uint8_t unknown[CELD_PIECE] = { 0 };
-  const float         *contrast = &CELD_AT (&w->contrast, x, y);
-  const uint8_t       *level = &CELD_AT (&w->level, x, y);
   float                full = w->noisy ? 0.8f : 1; /* because of grain */
 
-  write_dark (contrast, w->dark, n, ink);
-  if (pale && memcmp (level, unknown, (size_t) n)) /* most are */
-    darken_pale (contrast, &CELD_AT (&w->area, x, y), level, full, n, ink);
+  for (int i = 0, m; i < n; i += m)
+    {
+      int            x = left + i;
+      const uint8_t *level = &CELD_AT (&w->level, x, y);
+
+      m = piece_at (i, n);
+      if (memcmp (level, unknown, (size_t) m)) /* most are */
+        darken_pale (&CELD_AT (&w->contrast, x, y), &CELD_AT (&w->area, x, y), level, full, m, ink + i);
+    }
 }
 
 /* `ink` may be the plane of the contrast. */
 static void
 write_ink (const InkWork *w, bool pale, CeldPlane *ink)
 {
-  float piece[CELD_PIECE];
+  float part[ROW_PART];
 
   for (int y = 0; y < ink->height; y++)
     for (int x = 0, n; x < ink->width; x += n)
       {
-        n = piece_at (x, ink->width);
-        write_piece (w, pale, x, y, n, piece);
-        memcpy (&CELD_AT (ink, x, y), piece, (size_t) n * sizeof *piece);
+        n = ink->width - x < ROW_PART ? ink->width - x : ROW_PART;
+        write_dark (&CELD_AT (&w->contrast, x, y), w->dark, n, part);
+        if (pale)
+          write_pale (w, x, y, n, part);
+        memcpy (&CELD_AT (ink, x, y), part, (size_t) n * sizeof *part);
       }
 }
 
