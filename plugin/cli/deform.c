@@ -61,7 +61,7 @@ static bool
 keys_of_handles (Deformation *d, CliLayers *input)
 {
   CeldHandleKey *end;
-  CeldHandles    rest;
+  CeldHandles    rest = { 0 };
 
   d->keys = (CliHandleKeys) { g_new0 (CeldHandleKey, 2), 2 };
   end        = &d->keys.item[1];
