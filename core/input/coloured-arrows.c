@@ -14,11 +14,10 @@
 
 typedef struct
 {
-  const CeldColourStrokes *colours;
-  CeldStrokeMask           component;
-  bool                     graded; /* the arrows fade or taper */
-  CeldArrowEnd            *end;    /* two for each relation from `first` on */
-  size_t                   n, capacity, first;
+  CeldColouredPaint paint;
+  bool              graded; /* the arrows fade or taper */
+  CeldArrowEnd     *end;    /* two for each relation from `first` on */
+  size_t            n, capacity, first;
 } ColouredArrows;
 
 /* Appends the ends of the relations from `before` on, which are those of part k. */
@@ -31,8 +30,8 @@ add_ends (ColouredArrows *s, const CeldArrowStroke *stroke, size_t k, const Celd
     {
       const CeldRelation *r = &relations->item[i];
       CeldPoint           tail = { r->nearer.x, r->nearer.y }, tip = { r->farther.x, r->farther.y };
-      CeldArrowEnd        from = celd_arrow_end (&s->component, stroke, s->colours, k, tail, tip);
-      CeldArrowEnd        to = celd_arrow_end (&s->component, stroke, s->colours, k, tip, tail);
+      CeldArrowEnd        from = celd_arrow_end (&s->paint, stroke, k, tail, tip);
+      CeldArrowEnd        to = celd_arrow_end (&s->paint, stroke, k, tip, tail);
 
       status = celd_append (s->end, s->n, s->capacity, from);
       if (status == CELD_OK)
@@ -43,22 +42,22 @@ add_ends (ColouredArrows *s, const CeldArrowStroke *stroke, size_t k, const Celd
 
 /* Reads each part of a colour, as far as it is clear. */
 static CeldStatus
-read_parts (ColouredArrows *s, CeldArrowStroke *stroke, const CeldArrowLayer *layer, CeldArrowStyle style,
-            CeldRelations *relations, CeldProblems *problems)
+read_parts (ColouredArrows *s, CeldArrowStroke *stroke, CeldArrowStyle style, CeldRelations *relations,
+            CeldProblems *problems)
 {
   CeldStatus status = CELD_OK;
 
-  for (size_t k = 0; k < s->colours->strokes.n && status == CELD_OK; k++)
+  for (size_t k = 0; k < s->paint.colours->strokes.n && status == CELD_OK; k++)
     {
       CeldCrossingStrokes strokes = { 0 };
       size_t              before = relations->n;
       bool                clear = false;
 
-      celd_stroke_select (&s->colours->strokes, k, stroke);
+      celd_stroke_select (&s->paint.colours->strokes, k, stroke);
       if (stroke->n < CELD_LEAST_PART)
         continue;
-      status = s->graded || !s->colours->doubtful[k]
-                 ? celd_arrow_strokes_read (stroke, layer, style, relations, &strokes, &clear)
+      status = s->graded || !s->paint.colours->doubtful[k]
+                 ? celd_arrow_strokes_read (stroke, s->paint.layer, style, relations, &strokes, &clear)
                  : celd_crossing_strokes_find (stroke, &strokes);
       if (status == CELD_OK)
         status = clear ? add_ends (s, stroke, k, relations, before)
@@ -100,21 +99,23 @@ celd_coloured_arrows_read (const CeldColourStrokes *colours, const CeldArrowStro
                            const CeldArrowLayer *layer, CeldArrowStyle style, CeldRelations *relations,
                            CeldProblems *problems)
 {
+  CeldStrokeMask mask;
   ColouredArrows s = {
-    .colours = colours, .graded = style == CELD_ARROW_FADE || style == CELD_ARROW_TAPER, .first = relations->n,
+    .paint = { &mask, layer, colours }, .graded = style == CELD_ARROW_FADE || style == CELD_ARROW_TAPER,
+    .first = relations->n,
   };
   CeldArrowStroke stroke = *component;
-  CeldStatus      status = celd_stroke_mask_new (component, &s.component);
+  CeldStatus      status = celd_stroke_mask_new (component, &mask);
 
   if (status != CELD_OK)
     return status;
-  status = read_parts (&s, &stroke, layer, style, relations, problems);
+  status = read_parts (&s, &stroke, style, relations, problems);
   if (status == CELD_OK)
     {
-      celd_arrow_ends_find (&s.component, s.graded, s.end, s.n);
+      celd_arrow_ends_find (&mask, s.graded, s.end, s.n);
       status = settle (&s, relations, problems);
     }
   celd_free (s.end);
-  celd_stroke_mask_clear (&s.component);
+  celd_stroke_mask_clear (&mask);
   return status;
 }

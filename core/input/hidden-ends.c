@@ -16,6 +16,7 @@
 /* All chosen; widths are those of the shaft. */
 #define HIDING           0.8 /* widths of other paint in front of an end, at least, and ... */
 #define HIDING_LEAST     3   /* ... as many pixels more, that may hide it */
+#define FAINTER          0.6 /* of the opacity of an end: what is fainter hides nothing of it */
 #define BEHIND           3   /* widths from an end up to which the direction of its arrow is measured, and ... */
 #define BEHIND_LEAST     10  /* ... as many pixels at least */
 #define ASIDE            0.4 /* radians on either side of the direction in which the arrow may go on */
@@ -69,9 +70,37 @@ reach_beyond (const CeldArrowStroke *stroke, const bool *seen, CeldPoint at, Cel
 }
 
 static bool
-is_painted (const CeldStrokeMask *c, double x, double y)
+is_painted (const CeldStrokeMask *c, CeldPoint p)
 {
+  double x = p.x - c->left, y = p.y - c->top;
+
   return x >= 0 && y >= 0 && x < c->width && y < c->height && c->painted[(size_t) y * (size_t) c->width + (size_t) x];
+}
+
+/* The opacity of the paint of an arrow that is seen at its end. */
+static double
+opacity_at (const CeldColouredPaint *paint, const CeldArrowStroke *stroke, const bool *seen, CeldPoint at, double width)
+{
+  double sum = 0, n = 0;
+
+  for (size_t i = 0; i < stroke->n; i++)
+    {
+      int x = celd_stroke_x (stroke, stroke->pixel[i]), y = celd_stroke_y (stroke, stroke->pixel[i]);
+
+      if (!seen[i] || hypot (x + 0.5 - at.x, y + 0.5 - at.y) > width)
+        continue;
+      sum += celd_arrow_opacity (paint->layer, x, y);
+      n++;
+    }
+  return n > 0 ? sum / n : 0;
+}
+
+/* May the paint at a point hide paint of an opacity?  What is much fainter would let it be seen. */
+static bool
+may_hide (const CeldColouredPaint *paint, CeldPoint p, double opacity)
+{
+  return is_painted (paint->component, p) &&
+         celd_arrow_opacity (paint->layer, (int) p.x, (int) p.y) >= FAINTER * opacity;
 }
 
 /* Is most of the paint of an arrow at its end seen? */
@@ -111,16 +140,17 @@ is_broken (const CeldArrowStroke *stroke, const CeldColourStrokes *colours, size
 }
 
 CeldArrowEnd
-celd_arrow_end (const CeldStrokeMask *component, const CeldArrowStroke *stroke, const CeldColourStrokes *colours,
-                size_t k, CeldPoint at, CeldPoint other)
+celd_arrow_end (const CeldColouredPaint *paint, const CeldArrowStroke *stroke, size_t k, CeldPoint at, CeldPoint other)
 {
-  const bool  *seen = &colours->seen[colours->strokes.first[k]];
+  const bool  *seen = &paint->colours->seen[paint->colours->strokes.first[k]];
   CeldArrowEnd end = { .at = at, .place = at, .visible = true };
   CeldPoint    way;
+  double       opacity;
 
   end.width   = fmax (1.5, (double) stroke->n / fmax (1, hypot (at.x - other.x, at.y - other.y)));
   end.way     = way = direction_at (stroke, seen, at, end.width);
   end.visible = is_seen (stroke, seen, at, end.width);
+  opacity     = opacity_at (paint, stroke, seen, at, end.width);
   for (int ray = 0; ray < RAYS; ray++)
     {
       double    width = end.width, a = ASIDE * (2. * ray / (RAYS - 1) - 1), d = 0, start, most;
@@ -128,12 +158,12 @@ celd_arrow_end (const CeldStrokeMask *component, const CeldArrowStroke *stroke, 
 
       start = reach_beyond (stroke, seen, at, turned, &width) + 1;
       most  = HIDING * width + HIDING_LEAST;
-      while (d <= most && is_painted (component, at.x - component->left + (start + d) * turned.x,
-                                      at.y - component->top + (start + d) * turned.y))
+      while (d <= most && may_hide (paint, (CeldPoint) { at.x + (start + d) * turned.x, at.y + (start + d) * turned.y },
+                                    opacity))
         d += 0.5;
       end.visible &= d <= most;
     }
-  end.broken = !end.visible && is_broken (stroke, colours, k, &end);
+  end.broken = !end.visible && is_broken (stroke, paint->colours, k, &end);
   return end;
 }
 
@@ -144,7 +174,7 @@ is_joined (const CeldStrokeMask *c, CeldPoint a, CeldPoint b)
   double length = hypot (b.x - a.x, b.y - a.y);
 
   for (double d = 0; d < length; d += 0.5)
-    if (!is_painted (c, a.x - c->left + d * (b.x - a.x) / length, a.y - c->top + d * (b.y - a.y) / length))
+    if (!is_painted (c, (CeldPoint) { a.x + d * (b.x - a.x) / length, a.y + d * (b.y - a.y) / length }))
       return false;
   return true;
 }

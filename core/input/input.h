@@ -458,9 +458,17 @@ typedef struct
   bool      visible, broken, known;
 } CeldArrowEnd;
 
+/* A component of several colours, and its strokes. */
+typedef struct
+{
+  const CeldStrokeMask    *component;
+  const CeldArrowLayer    *layer;
+  const CeldColourStrokes *colours;
+} CeldColouredPaint;
+
 /* The end at `at` of an arrow from or to `other`, whose paint is stroke k of a component. */
-CeldArrowEnd celd_arrow_end (const CeldStrokeMask *component, const CeldArrowStroke *stroke,
-                             const CeldColourStrokes *colours, size_t k, CeldPoint at, CeldPoint other);
+CeldArrowEnd celd_arrow_end (const CeldColouredPaint *paint, const CeldArrowStroke *stroke, size_t k, CeldPoint at,
+                             CeldPoint other);
 
 /* Finds out which of n ends are known, and their places.  Arrow k has the ends 2 k and 2 k + 1.  Only with `lead` an
  * arrow may go on below others to a place where they end. */
