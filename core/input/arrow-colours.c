@@ -23,6 +23,8 @@
 #define ON_PAPER       1.7  /* times as much in a layer without alpha, which may have been stored with loss */
 #define LEAST_PAINT    20   /* pixels of a colour, ... */
 #define LEAST_PALETTE  0.02 /* ... which is at least this share of the solid paint */
+#define LARGER         2.5  /* times the area of a part: another part that it may have belonged to */
+#define MOST_BESIDE    0.55 /* of the edge of a stroke, beside other paint */
 #define CLOSING        7    /* pixels: half the width of a stroke below which another one continues */
 
 typedef struct { double red, green, blue; } StrokeColour;
@@ -195,22 +197,42 @@ add_part (const ColourSplit *s, const CeldArrowStroke *stroke, int colour, uint3
   return CELD_OK;
 }
 
-/* Is another part of the same colour so close that both may be one stroke? */
+/* Is a much larger part of the same colour so close that this one may be what others leave of its head or side? */
 static CeldStatus
-is_broken (ColourSplit *s, uint32_t part, bool *broken)
+is_remnant (ColourSplit *s, uint32_t part, bool *remnant)
 {
   size_t     n = (size_t) s->mask.width * (size_t) s->mask.height;
   CeldStatus status;
 
   for (size_t i = 0; i < n; i++)
-    s->seed[i] = s->parts.data[i] && s->parts.data[i] != part && s->part[s->parts.data[i] - 1].area >= LEAST_PAINT;
+    s->seed[i] = s->parts.data[i] && (double) s->part[s->parts.data[i] - 1].area >= LARGER * (double) s->part[part - 1].area;
   status = celd_distance (s->mask.width, s->mask.height, s->seed, NULL, s->squared);
   for (size_t i = 0; i < n && status == CELD_OK; i++)
-    *broken |= s->parts.data[i] == part && s->squared[i] < CELD_MOST_BREAK * CELD_MOST_BREAK;
+    *remnant |= s->parts.data[i] == part && s->squared[i] < CELD_MOST_BREAK * CELD_MOST_BREAK;
   return status;
 }
 
-/* Appends the connected parts of one colour, each a stroke, and to `doubtful` whether it may be a part of one. */
+/* Is most of the edge of a part beside other paint, which may hide a side or an end of it? */
+static bool
+is_covered (const ColourSplit *s, int colour, uint32_t part)
+{
+  size_t w = (size_t) s->mask.width, beside = 0, all = 0;
+
+  for (size_t p = 0; p < w * (size_t) s->mask.height; p++)
+    {
+      size_t around[4] = { p - w, p + 1, p + w, p - 1 }; /* the border is not painted */
+
+      for (int i = 0; i < 4 && s->parts.data[p] == part && s->index[p] == colour; i++)
+        if (s->parts.data[around[i]] != part || s->index[around[i]] != colour)
+          {
+            all++;
+            beside += s->mask.painted[around[i]];
+          }
+    }
+  return (double) beside > MOST_BESIDE * (double) all;
+}
+
+/* Appends the connected parts of one colour, each a stroke, and whether it is a remnant or covered. */
 static CeldStatus
 add_parts (ColourSplit *s, const CeldArrowStroke *stroke, int colour, CeldColourStrokes *to)
 {
@@ -218,15 +240,17 @@ add_parts (ColourSplit *s, const CeldArrowStroke *stroke, int colour, CeldColour
 
   for (size_t k = 0; k < s->n_parts && status == CELD_OK; k++)
     {
-      size_t n = to->strokes.n, n_colour = n, n_first = n + 1;
-      bool   broken = false;
+      size_t n = to->strokes.n, n_covered = n, n_colour = n, n_first = n + 1;
+      bool   remnant = false;
 
       if (s->part[k].area < LEAST_PAINT)
         continue;
       if (s->n_parts > 1 && s->part[k].area >= CELD_LEAST_PART)
-        status = is_broken (s, (uint32_t) k + 1, &broken);
+        status = is_remnant (s, (uint32_t) k + 1, &remnant);
       if (status == CELD_OK)
-        status = celd_append (to->doubtful, n, to->doubtful_capacity, broken);
+        status = celd_append (to->remnant, n, to->remnant_capacity, remnant);
+      if (status == CELD_OK)
+        status = celd_append (to->covered, n_covered, to->covered_capacity, is_covered (s, colour, (uint32_t) k + 1));
       if (status == CELD_OK)
         status = celd_append (to->colour, n_colour, to->colour_capacity, colour);
       if (status == CELD_OK)
@@ -298,7 +322,8 @@ void
 celd_colour_strokes_clear (CeldColourStrokes *s)
 {
   celd_crossing_strokes_clear (&s->strokes);
-  celd_free (s->doubtful);
+  celd_free (s->remnant);
+  celd_free (s->covered);
   celd_free (s->colour);
   celd_free (s->seen);
   *s = (CeldColourStrokes) { 0 };

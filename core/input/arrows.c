@@ -153,8 +153,10 @@ read_component (CeldArrowStroke *stroke, const CeldArrowLayer *layer, CeldArrowS
     status = celd_coloured_arrows_read (&colours, stroke, layer, style, relations, problems);
   else if (status == CELD_OK && !clear)
     {
-      status = celd_joined_arrows_read (stroke, layer, style, relations, problems, &clear);
-      if (status == CELD_OK && !clear)
+      double width = 0;
+
+      status = celd_joined_arrows_read (stroke, NULL, layer, style, relations, problems, &width);
+      if (status == CELD_OK && !(width > 0))
         status = celd_arrow_strokes_report (stroke, &strokes, problems);
     }
   celd_crossing_strokes_clear (&strokes);

@@ -12,6 +12,10 @@
 #include "base/base.h"
 #include "input/input.h"
 
+#include <math.h>
+
+#define LEAST_LENGTH 3 /* mean widths of an arrow, with its head or dot: what is shorter may be a piece of one; chosen */
+
 typedef struct
 {
   CeldColouredPaint paint;
@@ -20,9 +24,11 @@ typedef struct
   size_t            n, capacity, first;
 } ColouredArrows;
 
-/* Appends the ends of the relations from `before` on, which are those of part k. */
+/* Appends the ends of the relations from `before` on, which are those of part k.  width: of its lines; 0 = it is one
+ * line. */
 static CeldStatus
-add_ends (ColouredArrows *s, const CeldArrowStroke *stroke, size_t k, const CeldRelations *relations, size_t before)
+add_ends (ColouredArrows *s, const CeldArrowStroke *stroke, size_t k, const CeldRelations *relations, size_t before,
+          double width)
 {
   CeldStatus status = CELD_OK;
 
@@ -30,8 +36,9 @@ add_ends (ColouredArrows *s, const CeldArrowStroke *stroke, size_t k, const Celd
     {
       const CeldRelation *r = &relations->item[i];
       CeldPoint           tail = { r->nearer.x, r->nearer.y }, tip = { r->farther.x, r->farther.y };
-      CeldArrowEnd        from = celd_arrow_end (&s->paint, stroke, k, tail, tip);
-      CeldArrowEnd        to = celd_arrow_end (&s->paint, stroke, k, tip, tail);
+      double              mean = width > 0 ? width : (double) stroke->n / fmax (1, hypot (tip.x - tail.x, tip.y - tail.y));
+      CeldArrowEnd        from = celd_arrow_end (&s->paint, stroke, k, tail, tip, mean);
+      CeldArrowEnd        to = celd_arrow_end (&s->paint, stroke, k, tip, tail, mean);
 
       status = celd_append (s->end, s->n, s->capacity, from);
       if (status == CELD_OK)
@@ -50,24 +57,28 @@ read_parts (ColouredArrows *s, CeldArrowStroke *stroke, CeldArrowStyle style, Ce
   for (size_t k = 0; k < s->paint.colours->strokes.n && status == CELD_OK; k++)
     {
       CeldCrossingStrokes strokes = { 0 };
+      CeldStrokeCover     cover = { s->paint.component, &s->paint.colours->seen[s->paint.colours->strokes.first[k]] };
       size_t              before = relations->n;
-      bool                clear = false;
+      double              width = 0;
+      bool                clear = false, readable;
 
       celd_stroke_select (&s->paint.colours->strokes, k, stroke);
       if (stroke->n < CELD_LEAST_PART)
         continue;
-      status = s->graded || !s->paint.colours->doubtful[k]
-                 ? celd_arrow_strokes_read (stroke, s->paint.layer, style, relations, &strokes, &clear)
-                 : celd_crossing_strokes_find (stroke, &strokes);
+      readable = s->graded || !s->paint.colours->remnant[k];
+      status   = readable ? celd_arrow_strokes_read (stroke, s->paint.layer, style, relations, &strokes, &clear)
+                          : celd_crossing_strokes_find (stroke, &strokes);
+      if (status == CELD_OK && readable && !clear)
+        status = celd_joined_arrows_read (stroke, &cover, s->paint.layer, style, relations, problems, &width);
       if (status == CELD_OK)
-        status = clear ? add_ends (s, stroke, k, relations, before)
-                       : celd_arrow_strokes_report (stroke, &strokes, problems);
+        status = clear || width > 0 ? add_ends (s, stroke, k, relations, before, width)
+                                    : celd_arrow_strokes_report (stroke, &strokes, problems);
       celd_crossing_strokes_clear (&strokes);
     }
   return status;
 }
 
-/* Gives relations the places of their ends, and removes and reports those that have none. */
+/* Gives relations the places of their ends, and removes and reports those that have none, or are too short. */
 static CeldStatus
 settle (const ColouredArrows *s, CeldRelations *relations, CeldProblems *problems)
 {
@@ -83,7 +94,8 @@ settle (const ColouredArrows *s, CeldRelations *relations, CeldProblems *problem
       r.nearer.y  = from.y;
       r.farther.x = to.x;
       r.farther.y = to.y;
-      if (s->end[2 * i].known && s->end[2 * i + 1].known)
+      if (s->end[2 * i].known && s->end[2 * i + 1].known &&
+          hypot (to.x - from.x, to.y - from.y) >= LEAST_LENGTH * s->end[2 * i].width)
         relations->item[kept++] = r;
       else
         status = celd_problem_add (problems, (CeldProblem) {

@@ -18,6 +18,17 @@
 #define MOST_ALONG 1   /* ... but so many square widths */
 
 static void
+explain_hidden (CeldJoinedLines *s)
+{
+  size_t n = (size_t) s->mask.width * (size_t) s->mask.height;
+
+  if (s->hidden)
+    memcpy (s->explained, s->hidden, n);
+  else
+    memset (s->explained, 0, n);
+}
+
+static void
 explain_disc (CeldJoinedLines *s, CeldPoint c, double r)
 {
   celd_joined_fill_disc (s, c, r, 1, s->explained);
@@ -37,7 +48,7 @@ explain (CeldJoinedLines *s, CeldPoint from, CeldPoint to)
 void
 celd_joined_explain_lines (CeldJoinedLines *s)
 {
-  memset (s->explained, 0, (size_t) s->mask.width * (size_t) s->mask.height);
+  explain_hidden (s);
   for (size_t k = 0; k < s->graph.n_lines; k++)
     {
       const CeldStrokeLine *line = &s->graph.line[k];
@@ -53,7 +64,7 @@ celd_joined_explain_lines (CeldJoinedLines *s)
 void
 celd_joined_explain_wide_lines (CeldJoinedLines *s)
 {
-  memset (s->explained, 0, (size_t) s->mask.width * (size_t) s->mask.height);
+  explain_hidden (s);
   for (size_t k = 0; k < s->graph.n_lines; k++)
     for (size_t i = 0; i < s->graph.line[k].n; i++)
       {

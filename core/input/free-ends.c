@@ -12,6 +12,7 @@
 
 /* All chosen; lengths are widths of the paint. */
 #define TIP_CUT    4 /* of a line from its end to a cut, beyond which the end is the farthest paint */
+#define COVERED    1.5 /* from a free end to paint of other colours that may hide a head */
 #define HOOK       1 /* radians of a sharp turn near a free end, ... */
 #define HOOK_REACH 2 /* ... measured so far before and behind it, ... */
 #define HOOK_TO    7 /* ... no farther from the end */
@@ -100,7 +101,7 @@ celd_joined_read_free_end (CeldJoinedLines *s, size_t end)
   static const double cuts[] = { 8, 11, 15, 20 }; /* widths from the end; chosen */
   double              n = (double) s->graph.line[end / 2].n;
   CeldJoinedEnd      *e = &s->end[end], tried = *e;
-  bool                found = false;
+  bool                found = false, straight = !has_hook (s, end) && !s->graph.node[celd_joined_node (s, end)].branched;
   CeldStatus          status = CELD_OK;
 
   for (size_t i = 0; i < sizeof cuts / sizeof *cuts && status == CELD_OK && !found; i++)
@@ -110,18 +111,18 @@ celd_joined_read_free_end (CeldJoinedLines *s, size_t end)
       if (!i || steps < 0.7 * n)
         status = read_to_cut (s, end, celd_joined_point (s, end, fmin (steps, 0.5 * n)), &found, &e->tip);
     }
+  e->covered = straight && celd_joined_hidden_share (s, e->tip, COVERED * s->graph.width) > 0;
   if (found)
     {
-      e->mark = CELD_END_MARKED;
+      e->mark = s->hidden && is_at_frame (s, e->tip) ? CELD_END_UNKNOWN : CELD_END_MARKED;
       return status;
     }
   celd_joined_find_mark (s, &tried, true);
-  if (s->style == CELD_ARROW_DOT)
+  if (s->style == CELD_ARROW_DOT || tried.mark == CELD_END_HIDDEN)
     *e = tried;
   else
-    e->mark = tried.mark == CELD_END_BARE && !has_hook (s, end) && !s->graph.node[celd_joined_node (s, end)].branched
-                ? CELD_END_BARE : CELD_END_UNKNOWN;
-  if (e->mark == CELD_END_BARE && is_at_frame (s, e->tip))
+    e->mark = tried.mark == CELD_END_BARE && straight ? CELD_END_BARE : CELD_END_UNKNOWN;
+  if ((e->mark == CELD_END_BARE || s->hidden) && is_at_frame (s, e->tip))
     e->mark = CELD_END_UNKNOWN;
   return status;
 }

@@ -16,9 +16,13 @@
 /* All chosen; widths are those of the shaft. */
 #define HIDING           0.8 /* widths of other paint in front of an end, at least, and ... */
 #define HIDING_LEAST     3   /* ... as many pixels more, that may hide it */
+#define MOST_OTHERS      1.2 /* of the paint of an end: all paint there */
+#define SHORT_COVER      1.2 /* widths of other paint in front, and as many pixels more, below which an end is near */
 #define FAINTER          0.6 /* of the opacity of an end: what is fainter hides nothing of it */
 #define BEHIND           3   /* widths from an end up to which the direction of its arrow is measured, and ... */
-#define BEHIND_LEAST     10  /* ... as many pixels at least */
+#define BEHIND_LEAST     10  /* ... as many pixels at least; ... */
+#define OWN_COSINE       0.5 /* ... of the angle between its ends and the paint beside that, which may be another one's */
+#define LEAST_WIDTH      1.5 /* pixels, of an arrow */
 #define ASIDE            0.4 /* radians on either side of the direction in which the arrow may go on */
 #define RAYS             5   /* in that range, along which paint is looked for */
 #define SAME_PLACE       0.7 /* widths between the ends of two arrows that end at one place, and ... */
@@ -30,9 +34,9 @@
 #define ASTRAY           0.15 /* of that distance, by which its end may lie aside */
 #define BREAK_COSINE     0.8 /* of the angle by which an arrow that others hide may turn there, at least */
 
-/* The direction in which the paint of an arrow that is seen reaches its end. */
+/* The direction in which the paint of an arrow from or to `other` that is seen reaches its end. */
 static CeldPoint
-direction_at (const CeldArrowStroke *stroke, const bool *seen, CeldPoint at, double width)
+direction_at (const CeldArrowStroke *stroke, const bool *seen, CeldPoint at, CeldPoint other, double width)
 {
   CeldPoint sum = { 0, 0 };
   double    length;
@@ -40,8 +44,10 @@ direction_at (const CeldArrowStroke *stroke, const bool *seen, CeldPoint at, dou
   for (size_t i = 0; i < stroke->n; i++)
     {
       CeldPoint p = celd_stroke_point (stroke, stroke->pixel[i]);
+      double    dx = p.x - at.x, dy = p.y - at.y, d = hypot (dx, dy);
 
-      if (!seen[i] || hypot (p.x - at.x, p.y - at.y) > fmax (BEHIND_LEAST, BEHIND * width))
+      if (!seen[i] || d > fmax (BEHIND_LEAST, BEHIND * width) ||
+          dx * (other.x - at.x) + dy * (other.y - at.y) < OWN_COSINE * d * hypot (other.x - at.x, other.y - at.y))
         continue;
       sum.x += at.x - p.x;
       sum.y += at.y - p.y;
@@ -103,9 +109,22 @@ may_hide (const CeldColouredPaint *paint, CeldPoint p, double opacity)
          celd_arrow_opacity (paint->layer, (int) p.x, (int) p.y) >= FAINTER * opacity;
 }
 
-/* Is most of the paint of an arrow at its end seen? */
+/* The paint near a place, in pixels: of all arrows of a component. */
+static double
+paint_near (const CeldStrokeMask *component, CeldPoint at, double reach)
+{
+  double n = 0;
+
+  for (double y = floor (at.y - reach) + 0.5; y <= at.y + reach; y++)
+    for (double x = floor (at.x - reach) + 0.5; x <= at.x + reach; x++)
+      n += hypot (x - at.x, y - at.y) <= reach && is_painted (component, (CeldPoint) { x, y });
+  return n;
+}
+
+/* Is most of the paint of an arrow at its end seen?  Where others may hide a side of it, there must be none of them. */
 static bool
-is_seen (const CeldArrowStroke *stroke, const bool *seen, CeldPoint at, double width)
+is_seen (const CeldStrokeMask *component, const CeldArrowStroke *stroke, const bool *seen, bool covered, CeldPoint at,
+         double width)
 {
   size_t near = 0, hidden = 0;
 
@@ -118,7 +137,8 @@ is_seen (const CeldArrowStroke *stroke, const bool *seen, CeldPoint at, double w
       near++;
       hidden += !seen[i];
     }
-  return 2 * hidden < near;
+  return 2 * hidden < near &&
+         (!covered || paint_near (component, at, width) <= MOST_OTHERS * (double) (near - hidden));
 }
 
 /* Is there paint of the same colour in front of an end of stroke k, so close that it may be more of it? */
@@ -140,28 +160,31 @@ is_broken (const CeldArrowStroke *stroke, const CeldColourStrokes *colours, size
 }
 
 CeldArrowEnd
-celd_arrow_end (const CeldColouredPaint *paint, const CeldArrowStroke *stroke, size_t k, CeldPoint at, CeldPoint other)
+celd_arrow_end (const CeldColouredPaint *paint, const CeldArrowStroke *stroke, size_t k, CeldPoint at, CeldPoint other,
+                double width)
 {
   const bool  *seen = &paint->colours->seen[paint->colours->strokes.first[k]];
-  CeldArrowEnd end = { .at = at, .place = at, .visible = true };
+  CeldArrowEnd end = { .at = at, .place = at, .width = fmax (LEAST_WIDTH, width), .visible = true, .is_near = true };
   CeldPoint    way;
   double       opacity;
 
-  end.width   = fmax (1.5, (double) stroke->n / fmax (1, hypot (at.x - other.x, at.y - other.y)));
-  end.way     = way = direction_at (stroke, seen, at, end.width);
-  end.visible = is_seen (stroke, seen, at, end.width);
+  end.way     = way = direction_at (stroke, seen, at, other, end.width);
+  end.visible = is_seen (paint->component, stroke, seen, paint->colours->covered[k], at, end.width);
   opacity     = opacity_at (paint, stroke, seen, at, end.width);
   for (int ray = 0; ray < RAYS; ray++)
     {
-      double    width = end.width, a = ASIDE * (2. * ray / (RAYS - 1) - 1), d = 0, start, most;
+      double    wide = end.width, a = ASIDE * (2. * ray / (RAYS - 1) - 1), d = 0, start, most;
       CeldPoint turned = { way.x * cos (a) - way.y * sin (a), way.x * sin (a) + way.y * cos (a) };
 
-      start = reach_beyond (stroke, seen, at, turned, &width) + 1;
-      most  = HIDING * width + HIDING_LEAST;
+      start = reach_beyond (stroke, seen, at, turned, &wide) + 1;
+      most  = SHORT_COVER * end.width + HIDING_LEAST;
       while (d <= most && may_hide (paint, (CeldPoint) { at.x + (start + d) * turned.x, at.y + (start + d) * turned.y },
                                     opacity))
         d += 0.5;
-      end.visible &= d <= most;
+      end.visible &= d <= HIDING * wide + HIDING_LEAST;
+      end.is_near &= d <= most;
+      if (ray == RAYS / 2)
+        end.middle = (CeldPoint) { at.x + (start + d) / 2 * way.x, at.y + (start + d) / 2 * way.y };
     }
   end.broken = !end.visible && is_broken (stroke, paint->colours, k, &end);
   return end;
@@ -186,7 +209,7 @@ leads_to (const CeldStrokeMask *component, const CeldArrowEnd *end, CeldPoint p)
   double dx = p.x - end->at.x, dy = p.y - end->at.y, ahead = dx * end->way.x + dy * end->way.y;
   double aside = fabs (dx * end->way.y - dy * end->way.x);
 
-  return ahead > -end->width && ahead <= LEADING * end->width + LEADING_LEAST &&
+  return hypot (end->way.x, end->way.y) > 0 && ahead > -end->width && ahead <= LEADING * end->width + LEADING_LEAST &&
          aside <= SAME_PLACE * end->width + ASTRAY * ahead && is_joined (component, end->at, p);
 }
 
@@ -221,7 +244,9 @@ may_tell (const CeldArrowEnd *ends, size_t k, size_t i, bool lead)
 {
   bool straight_on = ends[k].way.x * ends[i].way.x + ends[k].way.y * ends[i].way.y < -SIDE_BY_SIDE;
 
-  return i / 2 != k / 2 && !(lead && k % 2 == 0 && straight_on);
+  return i / 2 != k / 2 && !(lead && k % 2 == 0 && straight_on) &&
+         hypot (ends[i].at.x - ends[k].at.x, ends[i].at.y - ends[k].at.y) <=
+           hypot (ends[i ^ 1].at.x - ends[k].at.x, ends[i ^ 1].at.y - ends[k].at.y);
 }
 
 void
@@ -232,13 +257,13 @@ celd_arrow_ends_find (const CeldStrokeMask *component, bool lead, CeldArrowEnd *
       double nearest = INFINITY;
 
       ends[k].known = ends[k].visible;
-      for (size_t i = 0; i < n && !ends[k].visible && !(lead && ends[k].broken); i++)
+      for (size_t i = 0; i < n && !ends[k].visible && !ends[k].broken; i++)
         {
           CeldPoint place;
           double    d;
 
           if (!may_tell (ends, k, i, lead) ||
-              !find_common_place (component, &ends[k], &ends[i], lead && k % 2, &place))
+              !find_common_place (component, &ends[k], &ends[i], !lead || k % 2, &place))
             continue;
           d = hypot (place.x - ends[k].at.x, place.y - ends[k].at.y);
           if (d >= nearest)
@@ -246,6 +271,11 @@ celd_arrow_ends_find (const CeldStrokeMask *component, bool lead, CeldArrowEnd *
           nearest       = d;
           ends[k].known = true;
           ends[k].place = place;
+        }
+      if (!ends[k].known && ends[k].is_near && !ends[k].broken)
+        {
+          ends[k].known = true;
+          ends[k].place = ends[k].middle;
         }
     }
 }

@@ -420,10 +420,15 @@ CeldPoint celd_line_sums_point (const CeldLineSums *sums, CeldPoint prior);
 
 /* ------------------------------------------------------------------ joined-arrows.c */
 
+/* What hides some of a stroke: the paint of all colours, and of each pixel of the stroke whether its colour is seen. */
+typedef struct { const CeldStrokeMask *component; const bool *seen; } CeldStrokeCover;
+
 /* Appends the arrows of connected paint of one colour whose ends meet, and a problem for each long line that is
- * unclear.  *any: there are such arrows, at least two; else nothing is appended. */
-CeldStatus celd_joined_arrows_read (CeldArrowStroke *stroke, const CeldArrowLayer *layer, CeldArrowStyle style,
-                                    CeldRelations *relations, CeldProblems *problems, bool *any);
+ * unclear.  *width: of the lines; 0 = there are no such arrows, or only one and no cover, and nothing is appended.
+ * cover: NULL if there are no other colours. */
+CeldStatus celd_joined_arrows_read (CeldArrowStroke *stroke, const CeldStrokeCover *cover, const CeldArrowLayer *layer,
+                                    CeldArrowStyle style, CeldRelations *relations, CeldProblems *problems,
+                                    double *width);
 
 /* ------------------------------------------------------------------ arrow-colours.c */
 
@@ -431,14 +436,15 @@ CeldStatus celd_joined_arrows_read (CeldArrowStroke *stroke, const CeldArrowLaye
 #define CELD_MOST_BREAK 40  /* pixels between parts that may be one stroke, hidden by others in between; chosen */
 
 /* Connected paint of each colour of a component, also what is too small to be a stroke; colour: that of each, from 0;
- * doubtful: it may be a part of a stroke that others hide; seen: of each pixel, that it has that colour, and not one
+ * remnant: it may be what others leave of the side or head of another one; covered: most of its edge is beside other
+ * paint; seen: of each pixel, that it has that colour, and not one
  * that hides it. */
 typedef struct
 {
   CeldCrossingStrokes strokes;
   int                *colour;
-  bool               *doubtful, *seen;
-  size_t              first_capacity, colour_capacity, doubtful_capacity, seen_capacity;
+  bool               *remnant, *covered, *seen;
+  size_t              first_capacity, colour_capacity, remnant_capacity, covered_capacity, seen_capacity;
 } CeldColourStrokes;
 
 /* strokes.n = 0 if the component has one colour.  To be cleared by the caller. */
@@ -450,12 +456,13 @@ void       celd_colour_strokes_clear (CeldColourStrokes *strokes);
 
 /* An end of an arrow: where its paint ends, the direction in which it does, and its mean width.  visible: it ends
  * there, else other paint of the component goes on in its direction and may hide its end; broken: so does paint of its
- * own colour farther on, which may be more of it; known: it ends at `place`. */
+ * own colour farther on, which may be more of it; is_near: that other paint is so short that its end is near `middle` in
+ * any case; known: it ends at `place`. */
 typedef struct
 {
-  CeldPoint at, way, place;
+  CeldPoint at, way, middle, place;
   double    width;
-  bool      visible, broken, known;
+  bool      visible, broken, is_near, known;
 } CeldArrowEnd;
 
 /* A component of several colours, and its strokes. */
@@ -466,9 +473,9 @@ typedef struct
   const CeldColourStrokes *colours;
 } CeldColouredPaint;
 
-/* The end at `at` of an arrow from or to `other`, whose paint is stroke k of a component. */
+/* The end at `at` of an arrow of a mean width from or to `other`, whose paint is stroke k of a component. */
 CeldArrowEnd celd_arrow_end (const CeldColouredPaint *paint, const CeldArrowStroke *stroke, size_t k, CeldPoint at,
-                             CeldPoint other);
+                             CeldPoint other, double width);
 
 /* Finds out which of n ends are known, and their places.  Arrow k has the ends 2 k and 2 k + 1.  Only with `lead` an
  * arrow may go on below others to a place where they end. */

@@ -121,7 +121,18 @@ add_line (const CeldJoinedLines *s, size_t k, const CeldLineArrows *arrows, bool
   return status;
 }
 
-/* Reads all lines.  *n: arrows; fewer than two are none, because a single stroke that is unclear stays so. */
+/* Is an arrow of a line no longer than a head, of which it may be a barb if the rest is hidden? */
+static bool
+is_as_short_as_head (const CeldJoinedLines *s, const CeldLineArrows *arrows)
+{
+  for (int i = 0; i < arrows->n; i++)
+    if (celd_points_apart (arrows->nearer[i], arrows->farther[i]) < CELD_HEAD_REACH * s->graph.width)
+      return true;
+  return false;
+}
+
+/* Reads all lines.  *n: arrows; fewer than two are none, because a single stroke that is unclear stays so, unless some
+ * of its paint is hidden. */
 static CeldStatus
 read_lines (CeldJoinedLines *s, const CeldArrowLayer *layer, CeldRelations *relations, CeldProblems *problems, int *n)
 {
@@ -133,18 +144,50 @@ read_lines (CeldJoinedLines *s, const CeldArrowLayer *layer, CeldRelations *rela
 
   if (status == CELD_OK)
     remove_passing (s, arrows);
+  for (size_t k = 0; k < s->graph.n_lines && status == CELD_OK && s->hidden; k++)
+    if (is_as_short_as_head (s, &arrows[k]))
+      arrows[k].n = 0;
   for (size_t k = 0; k < s->graph.n_lines && status == CELD_OK; k++)
     *n += is_long (s, k) ? arrows[k].n : 0;
-  for (size_t k = 0; k < s->graph.n_lines && status == CELD_OK && *n > 1; k++)
+  if (*n == 1 && !s->hidden)
+    *n = 0;
+  for (size_t k = 0; k < s->graph.n_lines && status == CELD_OK && *n; k++)
     if (is_long (s, k))
       status = add_line (s, k, &arrows[k], crack, relations, problems);
   celd_free (arrows);
   return status;
 }
 
+/* Finds the pixels of the mask that have paint of other colours. */
+static CeldStatus
+find_hidden (CeldJoinedLines *s, const CeldStrokeCover *cover)
+{
+  const CeldStrokeMask *c = cover->component;
+
+  s->hidden = celd_alloc0 ((size_t) s->mask.width * (size_t) s->mask.height, 1);
+  if (!s->hidden)
+    return CELD_NO_MEMORY;
+  for (int y = 0; y < s->mask.height; y++)
+    for (int x = 0; x < s->mask.width; x++)
+      {
+        int u = x + s->mask.left - c->left, v = y + s->mask.top - c->top;
+
+        s->hidden[(size_t) y * (size_t) s->mask.width + (size_t) x] =
+          u >= 0 && v >= 0 && u < c->width && v < c->height && c->painted[(size_t) v * (size_t) c->width + (size_t) u];
+      }
+  for (size_t i = 0; i < s->stroke->n; i++)
+    {
+      int x = celd_stroke_x (s->stroke, s->stroke->pixel[i]) - s->mask.left;
+      int y = celd_stroke_y (s->stroke, s->stroke->pixel[i]) - s->mask.top;
+
+      s->hidden[(size_t) y * (size_t) s->mask.width + (size_t) x] = !cover->seen[i];
+    }
+  return CELD_OK;
+}
+
 CeldStatus
-celd_joined_arrows_read (CeldArrowStroke *stroke, const CeldArrowLayer *layer, CeldArrowStyle style,
-                         CeldRelations *relations, CeldProblems *problems, bool *any)
+celd_joined_arrows_read (CeldArrowStroke *stroke, const CeldStrokeCover *cover, const CeldArrowLayer *layer,
+                         CeldArrowStyle style, CeldRelations *relations, CeldProblems *problems, double *width)
 {
   CeldJoinedLines s = { .style = style, .stroke = stroke };
   int             n = 0;
@@ -156,10 +199,13 @@ celd_joined_arrows_read (CeldArrowStroke *stroke, const CeldArrowLayer *layer, C
     status = CELD_NO_MEMORY;
   if (status == CELD_OK)
     s.may_take = s.explained + (size_t) s.mask.width * (size_t) s.mask.height;
+  if (status == CELD_OK && cover)
+    status = find_hidden (&s, cover);
   if (status == CELD_OK && s.graph.n_lines && s.graph.n_lines <= MOST_LINES)
     status = read_lines (&s, layer, relations, problems, &n);
-  *any = n > 1;
+  *width = n ? s.graph.width : 0;
   celd_free (s.end);
+  celd_free (s.hidden);
   celd_free (s.explained);
   celd_stroke_graph_clear (&s.graph);
   celd_stroke_mask_clear (&s.mask);

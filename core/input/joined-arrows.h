@@ -13,12 +13,19 @@
 #define CELD_MOST_APART 2.4 /* widths for which lines that meet may lie side by side; chosen: 30 degrees */
 #define CELD_HEAD_REACH 5.5 /* widths from the tip to the end of a barb, at most; chosen */
 
-typedef enum { CELD_END_UNKNOWN, CELD_END_BARE, CELD_END_MARKED } CeldEndMark;
+typedef enum { CELD_END_UNKNOWN, CELD_END_BARE, CELD_END_MARKED, CELD_END_HIDDEN } CeldEndMark;
 
 /* An end of a line.  tip: where it is, or would be; way: from there into the line.  Of a head: the directions of its
  * barbs from the tip, right and left of the line; how well each agrees with the paint, from 0 to 1 or -1 = it cannot be
- * seen; and how well the head does.  mark: is there a head or dot? */
-typedef struct { CeldPoint tip, way, barb[2]; double barb_score[2], score; CeldEndMark mark; } CeldJoinedEnd;
+ * seen; and how well the head does.  mark: is there a head or dot, or would paint of other colours hide it?  covered:
+ * there is such paint. */
+typedef struct
+{
+  CeldPoint   tip, way, barb[2];
+  double      barb_score[2], score;
+  CeldEndMark mark;
+  bool        covered;
+} CeldJoinedEnd;
 
 /* All points are in coordinates of the mask. */
 typedef struct
@@ -27,7 +34,8 @@ typedef struct
   CeldArrowStroke *stroke;    /* the connected paint; borrowed */
   CeldStrokeMask   mask;
   CeldStrokeGraph  graph;
-  uint8_t         *explained; /* of each pixel of the mask: does it belong to a line, or to a head that was found? */
+  uint8_t         *hidden;    /* of each pixel of the mask: has it paint of other colours?  NULL: there are none */
+  uint8_t         *explained; /* the same size: is it hidden, or does it belong to a line, or to a head that was found? */
   uint8_t         *may_take;  /* the same size: may a piece have that pixel? */
   CeldJoinedEnd   *end;       /* two for each line: end i of line k is 2 k + i */
 } CeldJoinedLines;
@@ -121,10 +129,10 @@ void celd_joined_fill_disc (const CeldJoinedLines *lines, CeldPoint centre, doub
 
 /* ------------------------------------------------------------------ explained-paint.c */
 
-/* Marks as explained the paint of all lines, with their ends led to the tips; nothing else is. */
+/* Marks as explained the paint of all lines, with their ends led to the tips, and what is hidden; nothing else is. */
 void celd_joined_explain_lines (CeldJoinedLines *lines);
 
-/* Marks as explained the paint of all lines, as wide as they are everywhere; nothing else is. */
+/* Marks as explained the paint of all lines, as wide as they are everywhere, and what is hidden; nothing else is. */
 void celd_joined_explain_wide_lines (CeldJoinedLines *lines);
 
 /* Marks the paint of the head or dot at an end as explained. */
@@ -144,6 +152,9 @@ bool celd_joined_is_alone (const CeldJoinedLines *lines, size_t line, size_t mar
 
 /* The barbs and the score of a head at an end whose tip is given. */
 void celd_joined_find_barbs (const CeldJoinedLines *lines, CeldJoinedEnd *end);
+
+/* The part of a disc, from 0 to 1, in which other colours hide what is there. */
+double celd_joined_hidden_share (const CeldJoinedLines *lines, CeldPoint centre, double radius);
 
 /* Looks for a head or dot near the tip of an end, which moves there if one is found. */
 void celd_joined_find_mark (const CeldJoinedLines *lines, CeldJoinedEnd *end, bool is_free);

@@ -102,10 +102,13 @@ marked_end (const CeldJoinedLines *s, size_t k, bool corners)
     return corners && (free_end[0] || s->style != CELD_ARROW_DOT) &&
            celd_stroke_line_corner (&s->graph, k, &corner) ? BOTH : UNCLEAR;
   for (int i = 0; i < 2; i++)
+    if (free_end[0] && free_end[1] && e[i].mark == CELD_END_BARE && !e[i].covered && e[!i].covered)
+      return !i; /* the head is there, if it is seen or not */
+  for (int i = 0; i < 2; i++)
     if (free_end[i] && e[i].mark == CELD_END_MARKED)
-      return !free_end[!i] || e[!i].mark == CELD_END_BARE ? i : UNCLEAR;
+      return !free_end[!i] || e[!i].mark == CELD_END_BARE || e[!i].mark == CELD_END_HIDDEN ? i : UNCLEAR;
     else if (free_end[i] && e[i].mark == CELD_END_BARE)
-      return e[!i].mark == CELD_END_MARKED ? !i : UNCLEAR;
+      return e[!i].mark == CELD_END_MARKED || e[!i].mark == CELD_END_HIDDEN ? !i : UNCLEAR;
   for (int i = 0; i < 2; i++)
     if (e[i].mark == CELD_END_MARKED && e[!i].mark == CELD_END_BARE)
       return i;

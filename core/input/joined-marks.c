@@ -35,6 +35,28 @@
 #define NO_DOT      0.8  /* radius of the paint where there is none */
 #define DOT_FREE    3    /* from a free end to the middle of its dot, at most, ... */
 #define DOT_HUB     1.5  /* ... and from where lines meet */
+#define DOT_HIDDEN  2    /* from an end without a dot to where paint of other colours may hide one */
+#define MOST_HIDDEN 0.5  /* part of a dot; of one of which more is hidden, ... */
+#define LEAST_RING  0.6  /* ... so many square widths beside its line are seen */
+
+double
+celd_joined_hidden_share (const CeldJoinedLines *s, CeldPoint c, double r)
+{
+  double hidden = 0, n = 0;
+
+  if (!s->hidden)
+    return 0;
+  for (double y = c.y - r; y <= c.y + r; y++)
+    for (double x = c.x - r; x <= c.x + r; x++)
+      if (hypot (x - c.x, y - c.y) <= r)
+        {
+          CeldPoint p = { x, y };
+
+          hidden += celd_joined_inside (s, p) && s->hidden[celd_joined_pixel (s, p)];
+          n++;
+        }
+  return hidden / n;
+}
 
 /* ------------------------------------------------------------------ heads */
 
@@ -126,7 +148,8 @@ find_head (const CeldJoinedLines *s, CeldJoinedEnd *e)
             }
         }
   *e      = found;
-  e->mark = best > HEAD_FROM ? CELD_END_MARKED : best >= 0 && best < BARE_TO ? CELD_END_BARE : CELD_END_UNKNOWN;
+  e->mark = best > HEAD_FROM ? CELD_END_MARKED : best >= 0 && best < BARE_TO ? CELD_END_BARE
+            : best < 0 && s->hidden ? CELD_END_HIDDEN : CELD_END_UNKNOWN;
   e->tip  = e->mark == CELD_END_MARKED ? (CeldPoint) { sum.x / n, sum.y / n } : start;
 }
 
@@ -192,6 +215,9 @@ find_dot (const CeldJoinedLines *s, CeldJoinedEnd *e, double reach)
           }
       }
   e->mark = most >= DOT_LEAST * w ? CELD_END_MARKED : most < NO_DOT * w ? CELD_END_BARE : CELD_END_UNKNOWN;
+  if (e->mark == CELD_END_MARKED ? celd_joined_hidden_share (s, middle, most) > MOST_HIDDEN
+                                 : celd_joined_hidden_share (s, e->tip, DOT_HIDDEN * w) > 0)
+    e->mark = celd_joined_rest (s, e->tip, DOT_FREE) >= LEAST_RING ? CELD_END_MARKED : CELD_END_HIDDEN;
   if (e->mark == CELD_END_MARKED)
     e->tip = middle;
 }

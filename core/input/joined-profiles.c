@@ -10,7 +10,9 @@
 #include <math.h>
 #include <string.h>
 
-#define CORNER_REACH 6 /* widths from a corner to where the directions of its sides are measured; chosen */
+/* Both chosen; lengths are widths of the paint. */
+#define CORNER_REACH 6   /* from a corner to where the directions of its sides are measured */
+#define MOST_MOVED   1.8 /* from a node to where its lines would meet */
 
 /* A part of a line, from a point to another.  Of its ends: the place where others meet it, and the widths round there
  * where the paint is theirs, too; 0 = none meet it. */
@@ -111,6 +113,12 @@ read_corner (CeldJoinedLines *s, const LinePart *whole, const CeldArrowLayer *la
   return status;
 }
 
+static bool
+is_moved (const CeldJoinedLines *s, int node, CeldPoint place)
+{
+  return celd_points_apart (s->graph.node[node].at, place) > MOST_MOVED * s->graph.width;
+}
+
 static CeldStatus
 read_line (CeldJoinedLines *s, size_t k, bool alone, const CeldArrowLayer *layer, CeldLineArrows *to)
 {
@@ -125,7 +133,8 @@ read_line (CeldJoinedLines *s, size_t k, bool alone, const CeldArrowLayer *layer
       whole.apart[i] = celd_joined_widths_apart (s, 2 * k + i);
       whole.place[i] = celd_joined_meeting_point (s, s->graph.line[k].node[i]);
       if (whole.apart[i] > CELD_MOST_APART ||
-          (whole.apart[i] > 0 && !celd_joined_is_led_to (s, s->graph.line[k].node[i], whole.place[i])))
+          (whole.apart[i] > 0 && (!celd_joined_is_led_to (s, s->graph.line[k].node[i], whole.place[i]) ||
+                                  is_moved (s, s->graph.line[k].node[i], whole.place[i]))))
         return CELD_OK;
     }
   status = read_part (s, &whole, layer, to, &tail);
