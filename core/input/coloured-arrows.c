@@ -14,7 +14,9 @@
 
 #include <math.h>
 
-#define LEAST_LENGTH 3 /* mean widths of an arrow, with its head or dot: what is shorter may be a piece of one; chosen */
+/* Both chosen; lengths are mean widths of an arrow, with its head or dot. */
+#define LEAST_ARROW 3 /* what is shorter may be a piece of one */
+#define AWAY        3 /* from the ends of an arrow */
 
 typedef struct
 {
@@ -23,6 +25,12 @@ typedef struct
   CeldArrowEnd     *end;    /* two for each relation from `first` on */
   size_t            n, capacity, first;
 } ColouredArrows;
+
+static double
+distance_to (CeldPoint a, CeldPoint b)
+{
+  return hypot (a.x - b.x, a.y - b.y);
+}
 
 /* Appends the ends of the relations from `before` on, which are those of part k.  width: of its lines; 0 = it is one
  * line. */
@@ -36,7 +44,7 @@ add_ends (ColouredArrows *s, const CeldArrowStroke *stroke, size_t k, const Celd
     {
       const CeldRelation *r = &relations->item[i];
       CeldPoint           tail = { r->nearer.x, r->nearer.y }, tip = { r->farther.x, r->farther.y };
-      double              mean = width > 0 ? width : (double) stroke->n / fmax (1, hypot (tip.x - tail.x, tip.y - tail.y));
+      double              mean = width > 0 ? width : (double) stroke->n / fmax (1, distance_to (tip, tail));
       CeldArrowEnd        from = celd_arrow_end (&s->paint, stroke, k, tail, tip, mean);
       CeldArrowEnd        to = celd_arrow_end (&s->paint, stroke, k, tip, tail, mean);
 
@@ -78,9 +86,40 @@ read_parts (ColouredArrows *s, CeldArrowStroke *stroke, CeldArrowStyle style, Ce
   return status;
 }
 
+/* Does another arrow end on an arrow, away from its ends?  Then two of its colour may meet there. */
+static bool
+may_be_two (const ColouredArrows *s, const CeldArrowStroke *component, size_t relation)
+{
+  const CeldColourStrokes *colours = s->paint.colours;
+  const CeldArrowEnd      *own = &s->end[2 * relation];
+  const size_t            *first = &colours->strokes.first[own->stroke];
+
+  for (size_t i = 0; i < s->n; i++)
+    {
+      CeldPoint p = s->end[i].place;
+
+      if (i / 2 == relation || distance_to (own[0].place, p) < AWAY * own->width || distance_to (own[1].place, p) < AWAY * own->width)
+        continue;
+      for (size_t k = first[0]; k < first[1]; k++)
+        if (distance_to (celd_stroke_point (component, colours->strokes.pixel[k]), p) <= own->width)
+          return true;
+    }
+  return false;
+}
+
+/* Is an arrow clear in all?  One with both ends in sight needs not be looked at any more. */
+static bool
+is_clear (const ColouredArrows *s, const CeldArrowStroke *component, size_t relation)
+{
+  const CeldArrowEnd *end = &s->end[2 * relation];
+
+  return end[0].known && end[1].known && distance_to (end[0].place, end[1].place) >= LEAST_ARROW * end->width &&
+         (s->graded || (end[0].visible && end[1].visible) || !may_be_two (s, component, relation));
+}
+
 /* Gives relations the places of their ends, and removes and reports those that have none, or are too short. */
 static CeldStatus
-settle (const ColouredArrows *s, CeldRelations *relations, CeldProblems *problems)
+settle (const ColouredArrows *s, const CeldArrowStroke *component, CeldRelations *relations, CeldProblems *problems)
 {
   size_t     kept = s->first;
   CeldStatus status = CELD_OK;
@@ -94,8 +133,7 @@ settle (const ColouredArrows *s, CeldRelations *relations, CeldProblems *problem
       r.nearer.y  = from.y;
       r.farther.x = to.x;
       r.farther.y = to.y;
-      if (s->end[2 * i].known && s->end[2 * i + 1].known &&
-          hypot (to.x - from.x, to.y - from.y) >= LEAST_LENGTH * s->end[2 * i].width)
+      if (is_clear (s, component, i))
         relations->item[kept++] = r;
       else
         status = celd_problem_add (problems, (CeldProblem) {
@@ -125,7 +163,7 @@ celd_coloured_arrows_read (const CeldColourStrokes *colours, const CeldArrowStro
   if (status == CELD_OK)
     {
       celd_arrow_ends_find (&mask, s.graded, s.end, s.n);
-      status = settle (&s, relations, problems);
+      status = settle (&s, component, relations, problems);
     }
   celd_free (s.end);
   celd_stroke_mask_clear (&mask);

@@ -12,7 +12,7 @@
 
 /* All chosen; lengths are widths of the paint. */
 #define TIP_CUT    4 /* of a line from its end to a cut, beyond which the end is the farthest paint */
-#define COVERED    1.5 /* from a free end to paint of other colours that may hide a head */
+#define OTHERS     1.5 /* from a free end to paint of other colours that may hide a head */
 #define HOOK       1 /* radians of a sharp turn near a free end, ... */
 #define HOOK_REACH 2 /* ... measured so far before and behind it, ... */
 #define HOOK_TO    7 /* ... no farther from the end */
@@ -111,7 +111,7 @@ celd_joined_read_free_end (CeldJoinedLines *s, size_t end)
       if (!i || steps < 0.7 * n)
         status = read_to_cut (s, end, celd_joined_point (s, end, fmin (steps, 0.5 * n)), &found, &e->tip);
     }
-  e->covered = straight && celd_joined_hidden_share (s, e->tip, COVERED * s->graph.width) > 0;
+  e->covered = straight && celd_joined_hidden_share (s, e->tip, OTHERS * s->graph.width) > 0;
   if (found)
     {
       e->mark = s->hidden && is_at_frame (s, e->tip) ? CELD_END_UNKNOWN : CELD_END_MARKED;

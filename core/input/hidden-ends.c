@@ -18,11 +18,13 @@
 #define HIDING_LEAST     3   /* ... as many pixels more, that may hide it */
 #define MOST_OTHERS      1.2 /* of the paint of an end: all paint there */
 #define SHORT_COVER      1.2 /* widths of other paint in front, and as many pixels more, below which an end is near */
+#define BESIDE           2.5 /* widths between an end that is near and another one that tells where it is, and ... */
+#define BESIDE_LEAST     3   /* ... as many pixels */
 #define FAINTER          0.6 /* of the opacity of an end: what is fainter hides nothing of it */
 #define BEHIND           3   /* widths from an end up to which the direction of its arrow is measured, and ... */
 #define BEHIND_LEAST     10  /* ... as many pixels at least; ... */
 #define OWN_COSINE       0.5 /* ... of the angle between its ends and the paint beside that, which may be another one's */
-#define LEAST_WIDTH      1.5 /* pixels, of an arrow */
+#define THINNEST_ARROW      1.5 /* pixels, of an arrow */
 #define ASIDE            0.4 /* radians on either side of the direction in which the arrow may go on */
 #define RAYS             5   /* in that range, along which paint is looked for */
 #define SAME_PLACE       0.7 /* widths between the ends of two arrows that end at one place, and ... */
@@ -164,7 +166,7 @@ celd_arrow_end (const CeldColouredPaint *paint, const CeldArrowStroke *stroke, s
                 double width)
 {
   const bool  *seen = &paint->colours->seen[paint->colours->strokes.first[k]];
-  CeldArrowEnd end = { .at = at, .place = at, .width = fmax (LEAST_WIDTH, width), .visible = true, .is_near = true };
+  CeldArrowEnd end = { .stroke = k, .at = at, .place = at, .width = fmax (THINNEST_ARROW, width), .visible = true, .is_near = true };
   CeldPoint    way;
   double       opacity;
 
@@ -177,7 +179,7 @@ celd_arrow_end (const CeldColouredPaint *paint, const CeldArrowStroke *stroke, s
       CeldPoint turned = { way.x * cos (a) - way.y * sin (a), way.x * sin (a) + way.y * cos (a) };
 
       start = reach_beyond (stroke, seen, at, turned, &wide) + 1;
-      most  = SHORT_COVER * end.width + HIDING_LEAST;
+      most  = SHORT_COVER * wide + HIDING_LEAST;
       while (d <= most && may_hide (paint, (CeldPoint) { at.x + (start + d) * turned.x, at.y + (start + d) * turned.y },
                                     opacity))
         d += 0.5;
@@ -249,33 +251,60 @@ may_tell (const CeldArrowEnd *ends, size_t k, size_t i, bool lead)
            hypot (ends[i ^ 1].at.x - ends[k].at.x, ends[i ^ 1].at.y - ends[k].at.y);
 }
 
+/* The place of end k, which is hidden, by that of another one that is in sight if there is such, else by a hidden one. */
+static void
+find_by_others (const CeldStrokeMask *component, bool lead, CeldArrowEnd *ends, size_t n, size_t k)
+{
+  double nearest = INFINITY;
+  bool   by_seen = false;
+
+  for (size_t i = 0; i < n; i++)
+    {
+      CeldPoint place;
+      double    d;
+
+      if ((by_seen && !ends[i].visible) || !may_tell (ends, k, i, lead) ||
+          !find_common_place (component, &ends[k], &ends[i], !lead || k % 2, &place))
+        continue;
+      d = hypot (place.x - ends[k].at.x, place.y - ends[k].at.y);
+      if (d >= nearest && by_seen == ends[i].visible)
+        continue;
+      nearest       = d;
+      by_seen       = ends[i].visible;
+      ends[k].known = true;
+      ends[k].place = place;
+    }
+}
+
+/* The place of an end that is near: that of another one in sight which is near, too, else the middle. */
+static void
+settle_near (CeldArrowEnd *ends, size_t n, size_t k)
+{
+  double nearest = BESIDE * ends[k].width + BESIDE_LEAST;
+
+  ends[k].known = true;
+  ends[k].place = ends[k].middle;
+  for (size_t i = 0; i < n; i++)
+    {
+      double d = hypot (ends[i].at.x - ends[k].middle.x, ends[i].at.y - ends[k].middle.y);
+
+      if (i / 2 == k / 2 || !ends[i].visible || d > nearest)
+        continue;
+      nearest       = d;
+      ends[k].place = ends[i].at;
+    }
+}
+
 void
 celd_arrow_ends_find (const CeldStrokeMask *component, bool lead, CeldArrowEnd *ends, size_t n)
 {
   for (size_t k = 0; k < n; k++)
     {
-      double nearest = INFINITY;
-
       ends[k].known = ends[k].visible;
-      for (size_t i = 0; i < n && !ends[k].visible && !ends[k].broken; i++)
-        {
-          CeldPoint place;
-          double    d;
-
-          if (!may_tell (ends, k, i, lead) ||
-              !find_common_place (component, &ends[k], &ends[i], !lead || k % 2, &place))
-            continue;
-          d = hypot (place.x - ends[k].at.x, place.y - ends[k].at.y);
-          if (d >= nearest)
-            continue;
-          nearest       = d;
-          ends[k].known = true;
-          ends[k].place = place;
-        }
-      if (!ends[k].known && ends[k].is_near && !ends[k].broken)
-        {
-          ends[k].known = true;
-          ends[k].place = ends[k].middle;
-        }
+      if (ends[k].visible || ends[k].broken)
+        continue;
+      find_by_others (component, lead, ends, n, k);
+      if (!ends[k].known && ends[k].is_near)
+        settle_near (ends, n, k);
     }
 }

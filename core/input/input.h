@@ -454,12 +454,13 @@ void       celd_colour_strokes_clear (CeldColourStrokes *strokes);
 
 /* ------------------------------------------------------------------ hidden-ends.c */
 
-/* An end of an arrow: where its paint ends, the direction in which it does, and its mean width.  visible: it ends
+/* An end of an arrow, which is a stroke of a colour: where its paint ends, the direction in which it does, and its mean width.  visible: it ends
  * there, else other paint of the component goes on in its direction and may hide its end; broken: so does paint of its
  * own colour farther on, which may be more of it; is_near: that other paint is so short that its end is near `middle` in
  * any case; known: it ends at `place`. */
 typedef struct
 {
+  size_t    stroke;
   CeldPoint at, way, middle, place;
   double    width;
   bool      visible, broken, is_near, known;

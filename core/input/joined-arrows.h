@@ -11,6 +11,7 @@
 
 #define CELD_LEAST_LINE 5   /* widths of the paint: a shorter line is part of something else; chosen */
 #define CELD_MOST_APART 2.4 /* widths for which lines that meet may lie side by side; chosen: 30 degrees */
+#define CELD_MOST_MOVED 1.8 /* widths from a node to where its lines would meet, at most; chosen */
 #define CELD_HEAD_REACH 5.5 /* widths from the tip to the end of a barb, at most; chosen */
 
 typedef enum { CELD_END_UNKNOWN, CELD_END_BARE, CELD_END_MARKED, CELD_END_HIDDEN } CeldEndMark;

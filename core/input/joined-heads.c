@@ -11,7 +11,6 @@
 #include <math.h>
 
 /* All chosen; lengths are widths of the paint. */
-#define MOST_MOVED  1.8  /* from where the lines meet to a node's place */
 #define CLEAR_SIDE  0.8  /* score of each barb of a head that is beyond doubt */
 #define MOST_REST   4.5  /* square widths of paint at a node that are not explained, ... */
 #define DOT_REACH   9    /* ... in this distance, if there is a dot: a short branch may lead to another one */
@@ -185,7 +184,7 @@ place_node (Heads *s, int node)
           return false;
       }
   if (!celd_joined_is_led_to (lines, node, place) ||
-      hypot (place.x - met.x, place.y - met.y) > MOST_MOVED * lines->graph.width)
+      hypot (place.x - met.x, place.y - met.y) > CELD_MOST_MOVED * lines->graph.width)
     return false;
   if (lines->style == CELD_ARROW_DOT)
     return celd_joined_rest (lines, place, DOT_REACH) <= MOST_REST;

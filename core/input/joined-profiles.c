@@ -10,9 +10,7 @@
 #include <math.h>
 #include <string.h>
 
-/* Both chosen; lengths are widths of the paint. */
-#define CORNER_REACH 6   /* from a corner to where the directions of its sides are measured */
-#define MOST_MOVED   1.8 /* from a node to where its lines would meet */
+#define CORNER_REACH 6 /* widths from a corner to where the directions of its sides are measured; chosen */
 
 /* A part of a line, from a point to another.  Of its ends: the place where others meet it, and the widths round there
  * where the paint is theirs, too; 0 = none meet it. */
@@ -116,7 +114,7 @@ read_corner (CeldJoinedLines *s, const LinePart *whole, const CeldArrowLayer *la
 static bool
 is_moved (const CeldJoinedLines *s, int node, CeldPoint place)
 {
-  return celd_points_apart (s->graph.node[node].at, place) > MOST_MOVED * s->graph.width;
+  return celd_points_apart (s->graph.node[node].at, place) > CELD_MOST_MOVED * s->graph.width;
 }
 
 static CeldStatus
