@@ -1,9 +1,10 @@
 /* Arrows of several colours that share ends or lie on each other: those of each colour are read alone.
  *
- * An arrow is left out if an end of it is hidden below others and its place unknown (hidden-ends.c).  Opacity and width
- * show how far an arrow goes, so that one that fades or tapers may lead below others.  Two arrows of one colour with
- * heads or dots may look like one where these are hidden, so that such arrows must end in sight or beside another end,
- * and no other paint of their colour may be near.
+ * The paint of a colour is one stroke, or lines that meet (joined-arrows.c); what other colours hide is unknown there, so
+ * that one end that is seen tells where the head or dot is.  An arrow is left out if an end of it is hidden below others
+ * and its place unknown (hidden-ends.c).  Two arrows of one colour with heads or dots may look like one where these are
+ * hidden, so that on an arrow with a hidden end no other one may end; what a much larger piece of the same colour is
+ * near to may be a part of that.
  *
  * Cost: some passes over the paint of each arrow.
  *
@@ -21,6 +22,7 @@
 typedef struct
 {
   CeldColouredPaint paint;
+  CeldArrowStyle    style;
   bool              graded; /* the arrows fade or taper */
   CeldArrowEnd     *end;    /* two for each relation from `first` on */
   size_t            n, capacity, first;
@@ -45,8 +47,9 @@ add_ends (ColouredArrows *s, const CeldArrowStroke *stroke, size_t k, const Celd
       const CeldRelation *r = &relations->item[i];
       CeldPoint           tail = { r->nearer.x, r->nearer.y }, tip = { r->farther.x, r->farther.y };
       double              mean = width > 0 ? width : (double) stroke->n / fmax (1, distance_to (tip, tail));
-      CeldArrowEnd        from = celd_arrow_end (&s->paint, stroke, k, tail, tip, mean);
-      CeldArrowEnd        to = celd_arrow_end (&s->paint, stroke, k, tip, tail, mean);
+      bool                whole = !(width > 0);
+      CeldArrowEnd        from = celd_arrow_end (&s->paint, stroke, k, tail, tip, mean, whole && s->style == CELD_ARROW_DOT);
+      CeldArrowEnd        to = celd_arrow_end (&s->paint, stroke, k, tip, tail, mean, whole && s->style == CELD_ARROW_HEAD);
 
       status = celd_append (s->end, s->n, s->capacity, from);
       if (status == CELD_OK)
@@ -57,8 +60,7 @@ add_ends (ColouredArrows *s, const CeldArrowStroke *stroke, size_t k, const Celd
 
 /* Reads each part of a colour, as far as it is clear. */
 static CeldStatus
-read_parts (ColouredArrows *s, CeldArrowStroke *stroke, CeldArrowStyle style, CeldRelations *relations,
-            CeldProblems *problems)
+read_parts (ColouredArrows *s, CeldArrowStroke *stroke, CeldRelations *relations, CeldProblems *problems)
 {
   CeldStatus status = CELD_OK;
 
@@ -74,10 +76,10 @@ read_parts (ColouredArrows *s, CeldArrowStroke *stroke, CeldArrowStyle style, Ce
       if (stroke->n < CELD_LEAST_PART)
         continue;
       readable = s->graded || !s->paint.colours->remnant[k];
-      status   = readable ? celd_arrow_strokes_read (stroke, s->paint.layer, style, relations, &strokes, &clear)
+      status   = readable ? celd_arrow_strokes_read (stroke, s->paint.layer, s->style, relations, &strokes, &clear)
                           : celd_crossing_strokes_find (stroke, &strokes);
       if (status == CELD_OK && readable && !clear)
-        status = celd_joined_arrows_read (stroke, &cover, s->paint.layer, style, relations, problems, &width);
+        status = celd_joined_arrows_read (stroke, &cover, s->paint.layer, s->style, relations, problems, &width);
       if (status == CELD_OK)
         status = clear || width > 0 ? add_ends (s, stroke, k, relations, before, width)
                                     : celd_arrow_strokes_report (stroke, &strokes, problems);
@@ -151,7 +153,7 @@ celd_coloured_arrows_read (const CeldColourStrokes *colours, const CeldArrowStro
 {
   CeldStrokeMask mask;
   ColouredArrows s = {
-    .paint = { &mask, layer, colours }, .graded = style == CELD_ARROW_FADE || style == CELD_ARROW_TAPER,
+    .paint = { &mask, layer, colours }, .style = style, .graded = style == CELD_ARROW_FADE || style == CELD_ARROW_TAPER,
     .first = relations->n,
   };
   CeldArrowStroke stroke = *component;
@@ -159,7 +161,7 @@ celd_coloured_arrows_read (const CeldColourStrokes *colours, const CeldArrowStro
 
   if (status != CELD_OK)
     return status;
-  status = read_parts (&s, &stroke, style, relations, problems);
+  status = read_parts (&s, &stroke, relations, problems);
   if (status == CELD_OK)
     {
       celd_arrow_ends_find (&mask, s.graded, s.end, s.n);

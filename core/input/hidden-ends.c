@@ -1,8 +1,9 @@
 /* Is the end of an arrow hidden by arrows of other colours?
  *
- * An arrow that is read by its colour ends where its paint does.  If most of the paint there is hidden, or other paint
- * goes on in its direction, or nearly so, its end may lie elsewhere.  Its place is known all the same if another arrow
- * ends there too, or at a place to which it leads below other paint, or if two hidden ones lead to one place.
+ * An arrow that is read by its colour ends where its paint does, if a head or dot is seen there.  Else, if most of the
+ * paint there is hidden, or other paint goes on in its direction, or nearly so, its end may lie elsewhere.  Its place is
+ * known all the same if another arrow ends there too, or at a place to which it leads below other paint, or if two
+ * hidden ones lead to one place, or if the other paint is short.  Ends that are in sight tell first.
  *
  * Cost: two passes over the paint of the arrow.
  *
@@ -18,13 +19,13 @@
 #define HIDING_LEAST     3   /* ... as many pixels more, that may hide it */
 #define MOST_OTHERS      1.2 /* of the paint of an end: all paint there */
 #define SHORT_COVER      1.2 /* widths of other paint in front, and as many pixels more, below which an end is near */
-#define BESIDE           2.5 /* widths between an end that is near and another one that tells where it is, and ... */
-#define BESIDE_LEAST     3   /* ... as many pixels */
+#define NEIGHBOUR        2.5 /* widths between an end that is near and another one that tells where it is, and ... */
+#define NEIGHBOUR_LEAST  3   /* ... as many pixels */
 #define FAINTER          0.6 /* of the opacity of an end: what is fainter hides nothing of it */
 #define BEHIND           3   /* widths from an end up to which the direction of its arrow is measured, and ... */
 #define BEHIND_LEAST     10  /* ... as many pixels at least; ... */
 #define OWN_COSINE       0.5 /* ... of the angle between its ends and the paint beside that, which may be another one's */
-#define THINNEST_ARROW      1.5 /* pixels, of an arrow */
+#define THINNEST_ARROW   1.5 /* pixels, of an arrow */
 #define ASIDE            0.4 /* radians on either side of the direction in which the arrow may go on */
 #define RAYS             5   /* in that range, along which paint is looked for */
 #define SAME_PLACE       0.7 /* widths between the ends of two arrows that end at one place, and ... */
@@ -161,33 +162,40 @@ is_broken (const CeldArrowStroke *stroke, const CeldColourStrokes *colours, size
   return false;
 }
 
-CeldArrowEnd
-celd_arrow_end (const CeldColouredPaint *paint, const CeldArrowStroke *stroke, size_t k, CeldPoint at, CeldPoint other,
-                double width)
+/* Looks for other paint ahead of an end, in its direction and on either side of that. */
+static void
+look_ahead (const CeldColouredPaint *paint, const CeldArrowStroke *stroke, const bool *seen, CeldArrowEnd *end)
 {
-  const bool  *seen = &paint->colours->seen[paint->colours->strokes.first[k]];
-  CeldArrowEnd end = { .stroke = k, .at = at, .place = at, .width = fmax (THINNEST_ARROW, width), .visible = true, .is_near = true };
-  CeldPoint    way;
-  double       opacity;
+  double opacity = opacity_at (paint, stroke, seen, end->at, end->width);
 
-  end.way     = way = direction_at (stroke, seen, at, other, end.width);
-  end.visible = is_seen (paint->component, stroke, seen, paint->colours->covered[k], at, end.width);
-  opacity     = opacity_at (paint, stroke, seen, at, end.width);
+  end->is_near = true;
   for (int ray = 0; ray < RAYS; ray++)
     {
-      double    wide = end.width, a = ASIDE * (2. * ray / (RAYS - 1) - 1), d = 0, start, most;
-      CeldPoint turned = { way.x * cos (a) - way.y * sin (a), way.x * sin (a) + way.y * cos (a) };
+      double    width = end->width, a = ASIDE * (2. * ray / (RAYS - 1) - 1), start, d;
+      CeldPoint way = { end->way.x * cos (a) - end->way.y * sin (a), end->way.x * sin (a) + end->way.y * cos (a) };
 
-      start = reach_beyond (stroke, seen, at, turned, &wide) + 1;
-      most  = SHORT_COVER * wide + HIDING_LEAST;
-      while (d <= most && may_hide (paint, (CeldPoint) { at.x + (start + d) * turned.x, at.y + (start + d) * turned.y },
-                                    opacity))
+      d = start = reach_beyond (stroke, seen, end->at, way, &width) + 1;
+      while (d - start <= SHORT_COVER * width + HIDING_LEAST &&
+             may_hide (paint, (CeldPoint) { end->at.x + d * way.x, end->at.y + d * way.y }, opacity))
         d += 0.5;
-      end.visible &= d <= HIDING * wide + HIDING_LEAST;
-      end.is_near &= d <= most;
+      end->visible &= d - start <= HIDING * width + HIDING_LEAST;
+      end->is_near &= d - start <= SHORT_COVER * width + HIDING_LEAST;
       if (ray == RAYS / 2)
-        end.middle = (CeldPoint) { at.x + (start + d) / 2 * way.x, at.y + (start + d) / 2 * way.y };
+        end->middle = (CeldPoint) { end->at.x + d / 2 * way.x, end->at.y + d / 2 * way.y };
     }
+}
+
+CeldArrowEnd
+celd_arrow_end (const CeldColouredPaint *paint, const CeldArrowStroke *stroke, size_t k, CeldPoint at, CeldPoint other,
+                double width, bool marked)
+{
+  const bool  *seen = &paint->colours->seen[paint->colours->strokes.first[k]];
+  CeldArrowEnd end = { .stroke = k, .at = at, .place = at, .width = fmax (THINNEST_ARROW, width) };
+
+  end.way     = direction_at (stroke, seen, at, other, end.width);
+  end.visible = is_seen (paint->component, stroke, seen, paint->colours->covered[k], at, end.width);
+  if (!marked || !end.visible)
+    look_ahead (paint, stroke, seen, &end);
   end.broken = !end.visible && is_broken (stroke, paint->colours, k, &end);
   return end;
 }
@@ -225,7 +233,7 @@ find_common_place (const CeldStrokeMask *component, const CeldArrowEnd *end, con
   double sine = end->way.x * other->way.y - end->way.y * other->way.x;
   bool   same = hypot (dx, dy) <= SAME_PLACE * fmin (end->width, other->width) + SAME_PLACE_LEAST;
 
-  *place = lead ? other->at : end->at;
+  *place = !lead ? end->at : other->known ? other->place : other->at;
   if (same)
     return other->visible || end->way.x * other->way.x + end->way.y * other->way.y < SIDE_BY_SIDE;
   if (!lead)
@@ -240,50 +248,48 @@ find_common_place (const CeldStrokeMask *component, const CeldArrowEnd *end, con
 }
 
 /* May end i tell where end k is, which is hidden?  What fades or tapers is strongest at its nearer end: it does not
- * lead below others there, and one that goes straight on from it may hide more of it. */
+ * lead below others there, and one that goes straight on from it may hide more of it.  No arrow leads to an end along
+ * the whole of the other arrow. */
 static bool
-may_tell (const CeldArrowEnd *ends, size_t k, size_t i, bool lead)
+may_tell (const CeldArrowEnd *ends, size_t k, size_t i, bool graded)
 {
   bool straight_on = ends[k].way.x * ends[i].way.x + ends[k].way.y * ends[i].way.y < -SIDE_BY_SIDE;
 
-  return i / 2 != k / 2 && !(lead && k % 2 == 0 && straight_on) &&
+  return i / 2 != k / 2 && !(graded && k % 2 == 0 && straight_on) &&
          hypot (ends[i].at.x - ends[k].at.x, ends[i].at.y - ends[k].at.y) <=
            hypot (ends[i ^ 1].at.x - ends[k].at.x, ends[i ^ 1].at.y - ends[k].at.y);
 }
 
-/* The place of end k, which is hidden, by that of another one that is in sight if there is such, else by a hidden one. */
+/* The place of end k, which is hidden, by those of others that end there: the nearest of these that are in sight, or of
+ * those that are not. */
 static void
-find_by_others (const CeldStrokeMask *component, bool lead, CeldArrowEnd *ends, size_t n, size_t k)
+find_by_others (const CeldStrokeMask *component, bool graded, bool in_sight, CeldArrowEnd *ends, size_t n, size_t k)
 {
   double nearest = INFINITY;
-  bool   by_seen = false;
 
   for (size_t i = 0; i < n; i++)
     {
       CeldPoint place;
       double    d;
 
-      if ((by_seen && !ends[i].visible) || !may_tell (ends, k, i, lead) ||
-          !find_common_place (component, &ends[k], &ends[i], !lead || k % 2, &place))
+      if (ends[i].visible != in_sight || !may_tell (ends, k, i, graded) ||
+          !find_common_place (component, &ends[k], &ends[i], !graded || k % 2, &place))
         continue;
       d = hypot (place.x - ends[k].at.x, place.y - ends[k].at.y);
-      if (d >= nearest && by_seen == ends[i].visible)
+      if (d >= nearest)
         continue;
       nearest       = d;
-      by_seen       = ends[i].visible;
       ends[k].known = true;
       ends[k].place = place;
     }
 }
 
-/* The place of an end that is near: that of another one in sight which is near, too, else the middle. */
+/* The place of end k, which is near the middle of what hides it: that of another one in sight which is near, too. */
 static void
-settle_near (CeldArrowEnd *ends, size_t n, size_t k)
+find_beside (CeldArrowEnd *ends, size_t n, size_t k)
 {
-  double nearest = BESIDE * ends[k].width + BESIDE_LEAST;
+  double nearest = NEIGHBOUR * ends[k].width + NEIGHBOUR_LEAST;
 
-  ends[k].known = true;
-  ends[k].place = ends[k].middle;
   for (size_t i = 0; i < n; i++)
     {
       double d = hypot (ends[i].at.x - ends[k].middle.x, ends[i].at.y - ends[k].middle.y);
@@ -291,20 +297,32 @@ settle_near (CeldArrowEnd *ends, size_t n, size_t k)
       if (i / 2 == k / 2 || !ends[i].visible || d > nearest)
         continue;
       nearest       = d;
+      ends[k].known = true;
       ends[k].place = ends[i].at;
     }
 }
 
 void
-celd_arrow_ends_find (const CeldStrokeMask *component, bool lead, CeldArrowEnd *ends, size_t n)
+celd_arrow_ends_find (const CeldStrokeMask *component, bool graded, CeldArrowEnd *ends, size_t n)
 {
   for (size_t k = 0; k < n; k++)
     {
       ends[k].known = ends[k].visible;
       if (ends[k].visible || ends[k].broken)
         continue;
-      find_by_others (component, lead, ends, n, k);
+      find_by_others (component, graded, true, ends, n, k);
       if (!ends[k].known && ends[k].is_near)
-        settle_near (ends, n, k);
+        find_beside (ends, n, k);
+    }
+  for (size_t k = 0; k < n; k++)
+    {
+      if (ends[k].known || ends[k].broken)
+        continue;
+      find_by_others (component, graded, false, ends, n, k);
+      if (!ends[k].known && ends[k].is_near)
+        {
+          ends[k].known = true;
+          ends[k].place = ends[k].middle;
+        }
     }
 }

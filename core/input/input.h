@@ -474,13 +474,14 @@ typedef struct
   const CeldColourStrokes *colours;
 } CeldColouredPaint;
 
-/* The end at `at` of an arrow of a mean width from or to `other`, whose paint is stroke k of a component. */
+/* The end at `at` of an arrow of a mean width from or to `other`, whose paint is stroke k of a component.  marked: a head
+ * or dot was found there, beyond which no arrow goes on. */
 CeldArrowEnd celd_arrow_end (const CeldColouredPaint *paint, const CeldArrowStroke *stroke, size_t k, CeldPoint at,
-                             CeldPoint other, double width);
+                             CeldPoint other, double width, bool marked);
 
-/* Finds out which of n ends are known, and their places.  Arrow k has the ends 2 k and 2 k + 1.  Only with `lead` an
- * arrow may go on below others to a place where they end. */
-void celd_arrow_ends_find (const CeldStrokeMask *component, bool lead, CeldArrowEnd *ends, size_t n);
+/* Finds out which of n ends are known, and their places.  Arrow k has the ends 2 k and 2 k + 1.  Arrows
+ * lead below others; those that are graded, which fade or taper, at their tips alone. */
+void celd_arrow_ends_find (const CeldStrokeMask *component, bool graded, CeldArrowEnd *ends, size_t n);
 
 /* ------------------------------------------------------------------ coloured-arrows.c */
 
