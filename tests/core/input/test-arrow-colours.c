@@ -7,25 +7,25 @@
 static void
 several_that_leave (void)
 {
-  read_shared (FAN_OUT, 3, 120, COLOURS, 0.5);
+  read_shared (FAN_OUT, 3, 120, COLOURS, 0.85);
 }
 
 static void
 several_that_arrive (void)
 {
-  read_shared (FAN_IN, 3, 120, COLOURS, 0.5);
+  read_shared (FAN_IN, 3, 120, COLOURS, 0.95);
 }
 
 static void
 head_to_tail (void)
 {
-  read_shared (CHAIN, 2, 120, COLOURS, 0.65);
+  read_shared (CHAIN, 2, 120, COLOURS, 0.93);
 }
 
 static void
 both_ways (void)
 {
-  read_shared (STAR, 4, 120, COLOURS, 0.72);
+  read_shared (STAR, 4, 120, COLOURS, 0.93);
 }
 
 static void
@@ -37,7 +37,7 @@ side_by_side (void)
 static void
 at_any_angles (void)
 {
-  read_at_any_angles (400, COLOURS, 0.75);
+  read_at_any_angles (400, COLOURS, 0.88);
 }
 
 /* The line of a head lies on the tail of an arrow that leaves the same place. */
@@ -100,6 +100,34 @@ two_that_look_like_one (void)
     }
 }
 
+/* The dot of a broad arrow hides an end of another one.  Its bare end tells that its dot is there; or its dot, that its
+ * bare end is. */
+static void
+one_end_is_enough (void)
+{
+  uint32_t state = 12;
+  size_t   found = 0;
+
+  for (int i = 0; i < 200; i++)
+    {
+      double    angle = random_between (&state, 0, 6.28), w = random_between (&state, 3, 6);
+      CeldPaint paint = blank (SIZE, SIZE);
+      Arrow     below = spoke (angle, 16 * w, w, CELD_ARROW_DOT, i % 2, false);
+      Arrow     above = spoke (angle + random_between (&state, 1.5, 4.5), 20 * w, 1.6 * w, CELD_ARROW_DOT, false, false);
+      Answer    answer;
+
+      draw_arrow (&paint, &below, COLOURS[0]);
+      draw_arrow (&paint, &above, COLOURS[1]);
+      answer = read_paint (&paint, CELD_ARROW_DOT);
+      CHECK (answer.relations.n == (size_t) is_read (&answer, &below, CELD_ARROW_DOT) +
+                                     (size_t) is_read (&answer, &above, CELD_ARROW_DOT));
+      found += answer.relations.n;
+      forget (&answer);
+      free (paint.data);
+    }
+  CHECK (found >= 360);
+}
+
 /* Each keeps its own colour, so that only the blue one cracks. */
 static void
 colours_stay (void)
@@ -130,6 +158,7 @@ main (void)
   RUN (at_any_angles);
   RUN (tails_below_heads);
   RUN (two_that_look_like_one);
+  RUN (one_end_is_enough);
   RUN (colours_stay);
   return DONE;
 }

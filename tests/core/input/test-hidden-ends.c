@@ -106,6 +106,50 @@ nearer_ends_do_not_lead (void)
   CHECK (put_beside (hidden, false, end_at (50, 60, 2, true), SIZE, true).known);
 }
 
+/* Ends in sight tell first, also where they are farther than one that is hidden. */
+static void
+ends_in_sight_tell_first (void)
+{
+  CeldStrokeMask mask = square (SIZE);
+  CeldArrowEnd   ends[6] = {
+    end_at (5, 5, 0, true), end_at (50, 60, 0, false), end_at (52, 60, 2, false), end_at (5, 110, 0, true),
+    end_at (70, 61, 2, true), end_at (110, 110, 0, true),
+  };
+
+  celd_arrow_ends_find (&mask, false, ends, 6);
+  CHECK (is_at (ends[1], 70, 61));
+  free (mask.painted);
+}
+
+/* An arrow that others hide for a short way ends in the middle of that, or where another one does beside it. */
+static void
+short_ways_are_known (void)
+{
+  CeldArrowEnd hidden = end_at (50, 60, 0, false), seen = end_at (56, 71, 2, true);
+
+  CHECK (!beside (hidden, end_at (5, 110, 0, true), SIZE, false).known);
+  hidden.is_near = true;
+  hidden.middle  = (CeldPoint) { 54, 60 };
+  CHECK (is_at (beside (hidden, end_at (5, 110, 0, true), SIZE, false), 54, 60));
+  CHECK (is_at (beside (hidden, seen, SIZE, false), 56, 71));
+  hidden.broken = true;
+  CHECK (!beside (hidden, seen, SIZE, false).known);
+}
+
+/* An arrow whose paint ends beside another one does not go on below all of that. */
+static void
+never_below_a_whole_arrow (void)
+{
+  CeldStrokeMask mask = square (SIZE);
+  CeldArrowEnd   ends[4] = {
+    end_at (5, 60, CELD_PI, true), end_at (50, 60, 0, false), end_at (75, 60, 0, true), end_at (45, 60, CELD_PI, true),
+  };
+
+  celd_arrow_ends_find (&mask, false, ends, 4);
+  CHECK (is_at (ends[1], 45, 60));
+  free (mask.painted);
+}
+
 static void
 own_ends_do_not_count (void)
 {
@@ -124,6 +168,9 @@ main (void)
   RUN (more_of_it_may_follow);
   RUN (both_are_hidden);
   RUN (nearer_ends_do_not_lead);
+  RUN (ends_in_sight_tell_first);
+  RUN (short_ways_are_known);
+  RUN (never_below_a_whole_arrow);
   RUN (own_ends_do_not_count);
   return DONE;
 }
