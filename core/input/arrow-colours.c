@@ -205,7 +205,8 @@ is_remnant (ColourSplit *s, uint32_t part, bool *remnant)
   CeldStatus status;
 
   for (size_t i = 0; i < n; i++)
-    s->seed[i] = s->parts.data[i] && (double) s->part[s->parts.data[i] - 1].area >= LARGER * (double) s->part[part - 1].area;
+    s->seed[i] = s->parts.data[i] &&
+                 (double) s->part[s->parts.data[i] - 1].area >= LARGER * (double) s->part[part - 1].area;
   status = celd_distance (s->mask.width, s->mask.height, s->seed, NULL, s->squared);
   for (size_t i = 0; i < n && status == CELD_OK; i++)
     *remnant |= s->parts.data[i] == part && s->squared[i] < CELD_MOST_BREAK * CELD_MOST_BREAK;

@@ -1,7 +1,7 @@
 /* Arrows of several colours that share ends or lie on each other: those of each colour are read alone.
  *
- * The paint of a colour is one stroke, or lines that meet (joined-arrows.c); what other colours hide is unknown there, so
- * that one end that is seen tells where the head or dot is.  An arrow is left out if an end of it is hidden below others
+ * The paint of a colour is one stroke, or lines that meet (joined-arrows.c); what other colours hide is unknown there,
+ * so that one end that is seen tells where the head or dot is.  An arrow is left out if an end of it is hidden below others
  * and its place unknown (hidden-ends.c).  Two arrows of one colour with heads or dots may look like one where these are
  * hidden, so that on an arrow with a hidden end no other one may end; what a much larger piece of the same colour is
  * near to may be a part of that.
@@ -15,9 +15,10 @@
 
 #include <math.h>
 
-/* Both chosen; lengths are mean widths of an arrow, with its head or dot. */
+/* All chosen; lengths are mean widths of an arrow, with its head or dot. */
 #define LEAST_ARROW 3 /* what is shorter may be a piece of one */
 #define AWAY        3 /* from the ends of an arrow */
+#define MARK_AREA   2 /* from the tip of a head, or the middle of a dot, to what belongs to it */
 
 typedef struct
 {
@@ -34,6 +35,21 @@ distance_to (CeldPoint a, CeldPoint b)
   return hypot (a.x - b.x, a.y - b.y);
 }
 
+/* The mean width of an arrow that is all of a stroke, with its head or dot. */
+static double
+mean_width (const CeldArrowStroke *stroke, CeldPoint tail, CeldPoint tip)
+{
+  return (double) stroke->n / fmax (1, distance_to (tip, tail));
+}
+
+static CeldEndSight
+sight_of (const ColouredArrows *s, double width, bool nearer)
+{
+  if (s->graded)
+    return nearer ? CELD_SIGHT_STRONG : CELD_SIGHT_NONE;
+  return !(width > 0) && nearer == (s->style == CELD_ARROW_DOT) ? CELD_SIGHT_MARKED : CELD_SIGHT_NONE;
+}
+
 /* Appends the ends of the relations from `before` on, which are those of part k.  width: of its lines; 0 = it is one
  * line. */
 static CeldStatus
@@ -46,10 +62,9 @@ add_ends (ColouredArrows *s, const CeldArrowStroke *stroke, size_t k, const Celd
     {
       const CeldRelation *r = &relations->item[i];
       CeldPoint           tail = { r->nearer.x, r->nearer.y }, tip = { r->farther.x, r->farther.y };
-      double              mean = width > 0 ? width : (double) stroke->n / fmax (1, distance_to (tip, tail));
-      bool                whole = !(width > 0);
-      CeldArrowEnd        from = celd_arrow_end (&s->paint, stroke, k, tail, tip, mean, whole && s->style == CELD_ARROW_DOT);
-      CeldArrowEnd        to = celd_arrow_end (&s->paint, stroke, k, tip, tail, mean, whole && s->style == CELD_ARROW_HEAD);
+      double              mean = width > 0 ? width : mean_width (stroke, tail, tip);
+      CeldArrowEnd        from = celd_arrow_end (&s->paint, stroke, k, tail, tip, mean, sight_of (s, width, true));
+      CeldArrowEnd        to = celd_arrow_end (&s->paint, stroke, k, tip, tail, mean, sight_of (s, width, false));
 
       status = celd_append (s->end, s->n, s->capacity, from);
       if (status == CELD_OK)
@@ -58,33 +73,55 @@ add_ends (ColouredArrows *s, const CeldArrowStroke *stroke, size_t k, const Celd
   return status;
 }
 
-/* Reads each part of a colour, as far as it is clear. */
-static CeldStatus
-read_parts (ColouredArrows *s, CeldArrowStroke *stroke, CeldRelations *relations, CeldProblems *problems)
+/* Is most of the head or dot of each relation from `before` on seen?  Else what looks like one may be other paint. */
+static bool
+marks_are_seen (const ColouredArrows *s, const CeldArrowStroke *stroke, const bool *seen, const CeldRelations *relations,
+                size_t before)
 {
-  CeldStatus status = CELD_OK;
-
-  for (size_t k = 0; k < s->paint.colours->strokes.n && status == CELD_OK; k++)
+  for (size_t i = before; i < relations->n && !s->graded; i++)
     {
-      CeldCrossingStrokes strokes = { 0 };
-      CeldStrokeCover     cover = { s->paint.component, &s->paint.colours->seen[s->paint.colours->strokes.first[k]] };
-      size_t              before = relations->n;
-      double              width = 0;
-      bool                clear = false, readable;
+      const CeldRelation *r = &relations->item[i];
+      CeldPoint           tail = { r->nearer.x, r->nearer.y }, tip = { r->farther.x, r->farther.y };
+      CeldPoint           mark = s->style == CELD_ARROW_DOT ? tail : tip;
+      double              reach = MARK_AREA * mean_width (stroke, tail, tip), all = 0, hidden = 0;
 
-      celd_stroke_select (&s->paint.colours->strokes, k, stroke);
-      if (stroke->n < CELD_LEAST_PART)
-        continue;
-      readable = s->graded || !s->paint.colours->remnant[k];
-      status   = readable ? celd_arrow_strokes_read (stroke, s->paint.layer, s->style, relations, &strokes, &clear)
-                          : celd_crossing_strokes_find (stroke, &strokes);
-      if (status == CELD_OK && readable && !clear)
-        status = celd_joined_arrows_read (stroke, &cover, s->paint.layer, s->style, relations, problems, &width);
-      if (status == CELD_OK)
-        status = clear || width > 0 ? add_ends (s, stroke, k, relations, before, width)
-                                    : celd_arrow_strokes_report (stroke, &strokes, problems);
-      celd_crossing_strokes_clear (&strokes);
+      for (size_t k = 0; k < stroke->n; k++)
+        if (distance_to (celd_stroke_point (stroke, stroke->pixel[k]), mark) <= reach)
+          {
+            all++;
+            hidden += !seen[k];
+          }
+      if (hidden > CELD_MARK_HIDDEN * all)
+        return false;
     }
+  return true;
+}
+
+/* Reads a part of a colour: as a stroke, or several that cross, else as lines that meet. */
+static CeldStatus
+read_part (ColouredArrows *s, CeldArrowStroke *stroke, size_t k, CeldRelations *relations, CeldProblems *problems)
+{
+  const CeldColourStrokes *colours = s->paint.colours;
+  CeldCrossingStrokes      strokes = { 0 };
+  CeldStrokeCover          cover = { s->paint.component, &colours->seen[colours->strokes.first[k]] };
+  size_t                   before = relations->n;
+  double                   width = 0;
+  bool                     clear = false, readable = s->graded || !colours->remnant[k];
+  CeldStatus               status;
+
+  status = readable ? celd_arrow_strokes_read (stroke, s->paint.layer, s->style, relations, &strokes, &clear)
+                    : celd_crossing_strokes_find (stroke, &strokes);
+  if (clear && !marks_are_seen (s, stroke, cover.seen, relations, before))
+    {
+      relations->n = before;
+      clear        = false;
+    }
+  if (status == CELD_OK && readable && !clear)
+    status = celd_joined_arrows_read (stroke, &cover, s->paint.layer, s->style, relations, problems, &width);
+  if (status == CELD_OK)
+    status = clear || width > 0 ? add_ends (s, stroke, k, relations, before, width)
+                                : celd_arrow_strokes_report (stroke, &strokes, problems);
+  celd_crossing_strokes_clear (&strokes);
   return status;
 }
 
@@ -100,7 +137,8 @@ may_be_two (const ColouredArrows *s, const CeldArrowStroke *component, size_t re
     {
       CeldPoint p = s->end[i].place;
 
-      if (i / 2 == relation || distance_to (own[0].place, p) < AWAY * own->width || distance_to (own[1].place, p) < AWAY * own->width)
+      if (i / 2 == relation ||
+          fmin (distance_to (own[0].place, p), distance_to (own[1].place, p)) < AWAY * own->width)
         continue;
       for (size_t k = first[0]; k < first[1]; k++)
         if (distance_to (celd_stroke_point (component, colours->strokes.pixel[k]), p) <= own->width)
@@ -161,7 +199,12 @@ celd_coloured_arrows_read (const CeldColourStrokes *colours, const CeldArrowStro
 
   if (status != CELD_OK)
     return status;
-  status = read_parts (&s, &stroke, relations, problems);
+  for (size_t k = 0; k < colours->strokes.n && status == CELD_OK; k++)
+    {
+      celd_stroke_select (&colours->strokes, k, &stroke);
+      if (stroke.n >= CELD_LEAST_PART)
+        status = read_part (&s, &stroke, k, relations, problems);
+    }
   if (status == CELD_OK)
     {
       celd_arrow_ends_find (&mask, s.graded, s.end, s.n);

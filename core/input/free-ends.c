@@ -12,6 +12,7 @@
 
 /* All chosen; lengths are widths of the paint. */
 #define TIP_CUT    4 /* of a line from its end to a cut, beyond which the end is the farthest paint */
+#define MARK_REACH 3.5 /* from the tip of a head, or the middle of a dot, to what belongs to it */
 #define OTHERS     1.5 /* from a free end to paint of other colours that may hide a head */
 #define HOOK       1 /* radians of a sharp turn near a free end, ... */
 #define HOOK_REACH 2 /* ... measured so far before and behind it, ... */
@@ -49,6 +50,24 @@ celd_joined_free_tip (const CeldJoinedLines *s, size_t end, CeldPoint *tip)
   return status;
 }
 
+/* Is most of the head or dot of a piece seen?  Else what looks like one may be the form of other paint. */
+static bool
+is_mark_seen (const CeldJoinedLines *s, const CeldArrowStroke *piece, CeldPoint tip)
+{
+  double hidden = 0, all = 0;
+
+  for (size_t i = 0; i < piece->n && s->hidden; i++)
+    {
+      CeldPoint p = celd_joined_in_mask (s, celd_stroke_point (piece, piece->pixel[i]));
+
+      if (celd_points_apart (p, tip) > MARK_REACH * s->graph.width)
+        continue;
+      all++;
+      hidden += s->hidden[celd_joined_pixel (s, p)];
+    }
+  return hidden <= CELD_MARK_HIDDEN * all;
+}
+
 /* Reads the paint between a free end and a cut.  *found: it is a stroke that leads from the cut to a head or dot, which
  * becomes the tip. */
 static CeldStatus
@@ -61,7 +80,8 @@ read_to_cut (const CeldJoinedLines *s, size_t end, CeldPoint cut, bool *found, C
   *found = status == CELD_OK && piece.stroke.n >= CELD_LEAST_STROKE &&
            celd_arrowhead (&piece.stroke, s->style == CELD_ARROW_DOT, &ends);
   *found = *found && celd_points_apart (celd_joined_in_mask (s, ends.tail), cut) <
-                       celd_points_apart (celd_joined_in_mask (s, ends.tip), cut);
+                       celd_points_apart (celd_joined_in_mask (s, ends.tip), cut) &&
+           is_mark_seen (s, &piece.stroke, celd_joined_in_mask (s, ends.tip));
   if (*found)
     *tip = celd_joined_in_mask (s, ends.tip);
   celd_joined_release (&piece);

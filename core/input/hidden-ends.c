@@ -104,7 +104,7 @@ opacity_at (const CeldColouredPaint *paint, const CeldArrowStroke *stroke, const
   return n > 0 ? sum / n : 0;
 }
 
-/* May the paint at a point hide paint of an opacity?  What is much fainter would let it be seen. */
+/* May the paint at a point hide paint of an opacity?  What is much fainter would let it be seen; 0 = any may. */
 static bool
 may_hide (const CeldColouredPaint *paint, CeldPoint p, double opacity)
 {
@@ -162,11 +162,13 @@ is_broken (const CeldArrowStroke *stroke, const CeldColourStrokes *colours, size
   return false;
 }
 
-/* Looks for other paint ahead of an end, in its direction and on either side of that. */
+/* Looks for other paint ahead of an end, in its direction and on either side of that.  strong: no paint of the arrow is
+ * more opaque than that of the end. */
 static void
-look_ahead (const CeldColouredPaint *paint, const CeldArrowStroke *stroke, const bool *seen, CeldArrowEnd *end)
+look_ahead (const CeldColouredPaint *paint, const CeldArrowStroke *stroke, const bool *seen, bool strong,
+            CeldArrowEnd *end)
 {
-  double opacity = opacity_at (paint, stroke, seen, end->at, end->width);
+  double opacity = strong ? opacity_at (paint, stroke, seen, end->at, end->width) : 0;
 
   end->is_near = true;
   for (int ray = 0; ray < RAYS; ray++)
@@ -187,15 +189,15 @@ look_ahead (const CeldColouredPaint *paint, const CeldArrowStroke *stroke, const
 
 CeldArrowEnd
 celd_arrow_end (const CeldColouredPaint *paint, const CeldArrowStroke *stroke, size_t k, CeldPoint at, CeldPoint other,
-                double width, bool marked)
+                double width, CeldEndSight sight)
 {
   const bool  *seen = &paint->colours->seen[paint->colours->strokes.first[k]];
   CeldArrowEnd end = { .stroke = k, .at = at, .place = at, .width = fmax (THINNEST_ARROW, width) };
 
   end.way     = direction_at (stroke, seen, at, other, end.width);
   end.visible = is_seen (paint->component, stroke, seen, paint->colours->covered[k], at, end.width);
-  if (!marked || !end.visible)
-    look_ahead (paint, stroke, seen, &end);
+  if (sight != CELD_SIGHT_MARKED || !end.visible)
+    look_ahead (paint, stroke, seen, sight == CELD_SIGHT_STRONG, &end);
   end.broken = !end.visible && is_broken (stroke, paint->colours, k, &end);
   return end;
 }

@@ -420,6 +420,8 @@ CeldPoint celd_line_sums_point (const CeldLineSums *sums, CeldPoint prior);
 
 /* ------------------------------------------------------------------ joined-arrows.c */
 
+#define CELD_MARK_HIDDEN 0.4 /* part of a head or dot that others may hide; chosen */
+
 /* What hides some of a stroke: the paint of all colours, and of each pixel of the stroke whether its colour is seen. */
 typedef struct { const CeldStrokeMask *component; const bool *seen; } CeldStrokeCover;
 
@@ -454,10 +456,10 @@ void       celd_colour_strokes_clear (CeldColourStrokes *strokes);
 
 /* ------------------------------------------------------------------ hidden-ends.c */
 
-/* An end of an arrow, which is a stroke of a colour: where its paint ends, the direction in which it does, and its mean width.  visible: it ends
- * there, else other paint of the component goes on in its direction and may hide its end; broken: so does paint of its
- * own colour farther on, which may be more of it; is_near: that other paint is so short that its end is near `middle` in
- * any case; known: it ends at `place`. */
+/* An end of an arrow, which is a stroke of a colour: where its paint ends, the direction in which it does, and its mean
+ * width.  visible: it ends there, else other paint of the component goes on in its direction and may hide its end;
+ * broken: so does paint of its own colour farther on, which may be more of it; is_near: that other paint is so short
+ * that its end is near `middle` in any case; known: it ends at `place`. */
 typedef struct
 {
   size_t    stroke;
@@ -474,10 +476,13 @@ typedef struct
   const CeldColourStrokes *colours;
 } CeldColouredPaint;
 
-/* The end at `at` of an arrow of a mean width from or to `other`, whose paint is stroke k of a component.  marked: a head
- * or dot was found there, beyond which no arrow goes on. */
+/* What is known of an end: a head or dot is there, beyond which no arrow goes on; or it is the nearer end of one that
+ * fades or tapers, which is stronger than what follows. */
+typedef enum { CELD_SIGHT_NONE, CELD_SIGHT_MARKED, CELD_SIGHT_STRONG } CeldEndSight;
+
+/* The end at `at` of an arrow of a mean width from or to `other`, whose paint is stroke k of a component. */
 CeldArrowEnd celd_arrow_end (const CeldColouredPaint *paint, const CeldArrowStroke *stroke, size_t k, CeldPoint at,
-                             CeldPoint other, double width, bool marked);
+                             CeldPoint other, double width, CeldEndSight sight);
 
 /* Finds out which of n ends are known, and their places.  Arrow k has the ends 2 k and 2 k + 1.  Arrows
  * lead below others; those that are graded, which fade or taper, at their tips alone. */

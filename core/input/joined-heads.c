@@ -107,7 +107,7 @@ marked_end (const CeldJoinedLines *s, size_t k, bool corners)
     if (free_end[i] && e[i].mark == CELD_END_MARKED)
       return !free_end[!i] || e[!i].mark == CELD_END_BARE || e[!i].mark == CELD_END_HIDDEN ? i : UNCLEAR;
     else if (free_end[i] && e[i].mark == CELD_END_BARE)
-      return e[!i].mark == CELD_END_MARKED || e[!i].mark == CELD_END_HIDDEN ? !i : UNCLEAR;
+      return e[!i].mark == CELD_END_MARKED || (e[!i].mark == CELD_END_HIDDEN && !e[i].covered) ? !i : UNCLEAR;
   for (int i = 0; i < 2; i++)
     if (e[i].mark == CELD_END_MARKED && e[!i].mark == CELD_END_BARE)
       return i;

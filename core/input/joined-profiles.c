@@ -130,7 +130,7 @@ read_line (CeldJoinedLines *s, size_t k, bool alone, const CeldArrowLayer *layer
     {
       whole.apart[i] = celd_joined_widths_apart (s, 2 * k + i);
       whole.place[i] = celd_joined_meeting_point (s, s->graph.line[k].node[i]);
-      if (whole.apart[i] > CELD_MOST_APART ||
+      if (whole.apart[i] > CELD_MOST_APART || (s->hidden && s->graph.node[s->graph.line[k].node[i]].branched) ||
           (whole.apart[i] > 0 && (!celd_joined_is_led_to (s, s->graph.line[k].node[i], whole.place[i]) ||
                                   is_moved (s, s->graph.line[k].node[i], whole.place[i]))))
         return CELD_OK;
