@@ -57,7 +57,7 @@ draw_scene (void)
       fill_box (&crossing_pixels, 20 - k, 42 - k, 22 + k, 43 - k, 0, 0x202020ff);
     }
   fill_box (&colour_pixels, 4, 12, 56, 16, 0, 0x202020ff); /* this one begins where a bar ends */
-  fill_box (&colour_pixels, 2, 6, 6, 26, 0, 0xe02020ff);
+  fill_box (&colour_pixels, 2, 6, 6, 36, 0, 0xe02020ff); /* no arrow: read as lines that meet, too */
   fill_box (&colour_pixels, 28, 0, 31, 38, 0, 0xe08020ff);
   for (int k = 0; k < 8; k++)
     {
