@@ -177,11 +177,12 @@ close_colour (ColourSplit *s, int colour)
 static CeldStatus
 add_part (const ColourSplit *s, const CeldArrowStroke *stroke, int colour, uint32_t part, CeldColourStrokes *all)
 {
+  const CeldComponent *box = &s->part[part - 1];
   CeldCrossingStrokes *to = &all->strokes;
   size_t               row = (size_t) stroke->width + 2, n = to->first[to->n], n_seen = n;
 
-  for (int y = 0; y < s->mask.height; y++)
-    for (int x = 0; x < s->mask.width; x++)
+  for (int y = box->top; y <= box->bottom; y++)
+    for (int x = box->left; x <= box->right; x++)
       {
         size_t p = (size_t) y * (size_t) s->mask.width + (size_t) x;
 
@@ -201,15 +202,26 @@ add_part (const ColourSplit *s, const CeldArrowStroke *stroke, int colour, uint3
 static CeldStatus
 is_remnant (ColourSplit *s, uint32_t part, bool *remnant)
 {
-  size_t     n = (size_t) s->mask.width * (size_t) s->mask.height;
-  CeldStatus status;
+  const CeldComponent *own = &s->part[part - 1];
+  int                  left = own->left > CELD_MOST_BREAK ? own->left - CELD_MOST_BREAK : 0;
+  int                  top = own->top > CELD_MOST_BREAK ? own->top - CELD_MOST_BREAK : 0;
+  int                  width = (int) fmin (own->right + CELD_MOST_BREAK + 1, s->mask.width) - left;
+  int                  height = (int) fmin (own->bottom + CELD_MOST_BREAK + 1, s->mask.height) - top;
+  CeldStatus           status;
 
-  for (size_t i = 0; i < n; i++)
-    s->seed[i] = s->parts.data[i] &&
-                 (double) s->part[s->parts.data[i] - 1].area >= LARGER * (double) s->part[part - 1].area;
-  status = celd_distance (s->mask.width, s->mask.height, s->seed, NULL, s->squared);
-  for (size_t i = 0; i < n && status == CELD_OK; i++)
-    *remnant |= s->parts.data[i] == part && s->squared[i] < CELD_MOST_BREAK * CELD_MOST_BREAK;
+  for (int y = 0; y < height; y++)
+    for (int x = 0; x < width; x++)
+      {
+        uint32_t there = CELD_AT (&s->parts, left + x, top + y);
+
+        s->seed[(size_t) y * (size_t) width + (size_t) x] =
+          there && (double) s->part[there - 1].area >= LARGER * (double) own->area;
+      }
+  status = celd_distance (width, height, s->seed, NULL, s->squared);
+  for (int y = 0; y < height && status == CELD_OK; y++)
+    for (int x = 0; x < width; x++)
+      *remnant |= CELD_AT (&s->parts, left + x, top + y) == part &&
+                  s->squared[(size_t) y * (size_t) width + (size_t) x] < CELD_MOST_BREAK * CELD_MOST_BREAK;
   return status;
 }
 
@@ -217,19 +229,21 @@ is_remnant (ColourSplit *s, uint32_t part, bool *remnant)
 static bool
 is_covered (const ColourSplit *s, int colour, uint32_t part)
 {
-  size_t w = (size_t) s->mask.width, beside = 0, all = 0;
+  const CeldComponent *box = &s->part[part - 1];
+  size_t               w = (size_t) s->mask.width, beside = 0, all = 0;
 
-  for (size_t p = 0; p < w * (size_t) s->mask.height; p++)
-    {
-      size_t around[4] = { p - w, p + 1, p + w, p - 1 }; /* the border is not painted */
+  for (int y = box->top; y <= box->bottom; y++)
+    for (int x = box->left; x <= box->right; x++)
+      {
+        size_t p = (size_t) y * w + (size_t) x, around[4] = { p - w, p + 1, p + w, p - 1 }; /* the border is not painted */
 
-      for (int i = 0; i < 4 && s->parts.data[p] == part && s->index[p] == colour; i++)
-        if (s->parts.data[around[i]] != part || s->index[around[i]] != colour)
-          {
-            all++;
-            beside += s->mask.painted[around[i]];
-          }
-    }
+        for (int i = 0; i < 4 && s->parts.data[p] == part && s->index[p] == colour; i++)
+          if (s->parts.data[around[i]] != part || s->index[around[i]] != colour)
+            {
+              all++;
+              beside += s->mask.painted[around[i]];
+            }
+      }
   return (double) beside > MOST_BESIDE * (double) all;
 }
 
