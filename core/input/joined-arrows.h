@@ -19,7 +19,7 @@ typedef enum { CELD_END_UNKNOWN, CELD_END_BARE, CELD_END_MARKED, CELD_END_HIDDEN
 /* An end of a line.  tip: where it is, or would be; way: from there into the line.  Of a head: the directions of its
  * barbs from the tip, right and left of the line; how well each agrees with the paint, from 0 to 1 or -1 = it cannot be
  * seen; and how well the head does.  mark: is there a head or dot, or would paint of other colours hide it?  covered:
- * there is such paint. */
+ * there is such paint near a free end, up to which the line is straight. */
 typedef struct
 {
   CeldPoint   tip, way, barb[2];

@@ -102,7 +102,7 @@ marked_end (const CeldJoinedLines *s, size_t k, bool corners)
            celd_stroke_line_corner (&s->graph, k, &corner) ? BOTH : UNCLEAR;
   for (int i = 0; i < 2; i++)
     if (free_end[0] && free_end[1] && e[i].mark == CELD_END_BARE && !e[i].covered && e[!i].covered)
-      return !i; /* the head is there, if it is seen or not */
+      return !i; /* the head is there, seen or not */
   for (int i = 0; i < 2; i++)
     if (free_end[i] && e[i].mark == CELD_END_MARKED)
       return !free_end[!i] || e[!i].mark == CELD_END_BARE || e[!i].mark == CELD_END_HIDDEN ? i : UNCLEAR;
