@@ -37,7 +37,7 @@
 #define DOT_HUB     1.5  /* ... and from where lines meet */
 #define DOT_HIDDEN  2    /* from an end without a dot to where paint of other colours may hide one */
 #define MOST_HIDDEN 0.5  /* part of a dot; of one of which more is hidden, ... */
-#define LEAST_RING  0.6  /* ... so many square widths beside its line are seen */
+#define LEAST_RING  1.0  /* ... so many square widths beside its line are seen */
 
 double
 celd_joined_hidden_share (const CeldJoinedLines *s, CeldPoint c, double r)
