@@ -29,17 +29,11 @@ typedef struct
   size_t            n, capacity, first;
 } ColouredArrows;
 
-static double
-distance_to (CeldPoint a, CeldPoint b)
-{
-  return hypot (a.x - b.x, a.y - b.y);
-}
-
 /* The mean width of an arrow that is all of a stroke, with its head or dot. */
 static double
 mean_width (const CeldArrowStroke *stroke, CeldPoint tail, CeldPoint tip)
 {
-  return (double) stroke->n / fmax (1, distance_to (tip, tail));
+  return (double) stroke->n / fmax (1, celd_points_apart (tip, tail));
 }
 
 static CeldEndSight
@@ -86,7 +80,7 @@ marks_are_seen (const ColouredArrows *s, const CeldArrowStroke *stroke, const bo
       double              reach = MARK_AREA * mean_width (stroke, tail, tip), all = 0, hidden = 0;
 
       for (size_t k = 0; k < stroke->n; k++)
-        if (distance_to (celd_stroke_point (stroke, stroke->pixel[k]), mark) <= reach)
+        if (celd_points_apart (celd_stroke_point (stroke, stroke->pixel[k]), mark) <= reach)
           {
             all++;
             hidden += !seen[k];
@@ -138,10 +132,10 @@ may_be_two (const ColouredArrows *s, const CeldArrowStroke *component, size_t re
       CeldPoint p = s->end[i].place;
 
       if (i / 2 == relation ||
-          fmin (distance_to (own[0].place, p), distance_to (own[1].place, p)) < AWAY * own->width)
+          fmin (celd_points_apart (own[0].place, p), celd_points_apart (own[1].place, p)) < AWAY * own->width)
         continue;
       for (size_t k = first[0]; k < first[1]; k++)
-        if (distance_to (celd_stroke_point (component, colours->strokes.pixel[k]), p) <= own->width)
+        if (celd_points_apart (celd_stroke_point (component, colours->strokes.pixel[k]), p) <= own->width)
           return true;
     }
   return false;
@@ -153,7 +147,7 @@ is_clear (const ColouredArrows *s, const CeldArrowStroke *component, size_t rela
 {
   const CeldArrowEnd *end = &s->end[2 * relation];
 
-  return end[0].known && end[1].known && distance_to (end[0].place, end[1].place) >= LEAST_ARROW * end->width &&
+  return end[0].known && end[1].known && celd_points_apart (end[0].place, end[1].place) >= LEAST_ARROW * end->width &&
          (s->graded || (end[0].visible && end[1].visible) || !may_be_two (s, component, relation));
 }
 

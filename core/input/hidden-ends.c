@@ -258,8 +258,7 @@ may_tell (const CeldArrowEnd *ends, size_t k, size_t i, bool graded)
   bool straight_on = ends[k].way.x * ends[i].way.x + ends[k].way.y * ends[i].way.y < -SIDE_BY_SIDE;
 
   return i / 2 != k / 2 && !(graded && k % 2 == 0 && straight_on) &&
-         hypot (ends[i].at.x - ends[k].at.x, ends[i].at.y - ends[k].at.y) <=
-           hypot (ends[i ^ 1].at.x - ends[k].at.x, ends[i ^ 1].at.y - ends[k].at.y);
+         celd_points_apart (ends[i].at, ends[k].at) <= celd_points_apart (ends[i ^ 1].at, ends[k].at);
 }
 
 /* The place of end k, which is hidden, by those of others that end there: the nearest of these that are in sight, or of
@@ -277,7 +276,7 @@ find_by_others (const CeldStrokeMask *component, bool graded, bool in_sight, Cel
       if (ends[i].visible != in_sight || !may_tell (ends, k, i, graded) ||
           !find_common_place (component, &ends[k], &ends[i], !graded || k % 2, &place))
         continue;
-      d = hypot (place.x - ends[k].at.x, place.y - ends[k].at.y);
+      d = celd_points_apart (place, ends[k].at);
       if (d >= nearest)
         continue;
       nearest       = d;
@@ -294,7 +293,7 @@ find_beside (CeldArrowEnd *ends, size_t n, size_t k)
 
   for (size_t i = 0; i < n; i++)
     {
-      double d = hypot (ends[i].at.x - ends[k].middle.x, ends[i].at.y - ends[k].middle.y);
+      double d = celd_points_apart (ends[i].at, ends[k].middle);
 
       if (i / 2 == k / 2 || !ends[i].visible || d > nearest)
         continue;

@@ -41,6 +41,8 @@
 
 #include "image/image.h"
 
+#include <math.h>
+
 /* ------------------------------------------------------------------ scribbles */
 
 #define CELD_LEAST_DOT  4       /* solid pixels that make a label: a dot of 2 x 2; chosen */
@@ -249,6 +251,12 @@ CeldStatus celd_contour_join (CeldContourBake *b, const CeldHost *host);
 /* ------------------------------------------------------------------ arrows */
 
 typedef struct { double x, y; } CeldPoint;
+
+static inline double
+celd_points_apart (CeldPoint a, CeldPoint b)
+{
+  return hypot (a.x - b.x, a.y - b.y);
+}
 
 /* ------------------------------------------------------------------ arrow-layer.c */
 
@@ -484,8 +492,8 @@ typedef enum { CELD_SIGHT_NONE, CELD_SIGHT_MARKED, CELD_SIGHT_STRONG } CeldEndSi
 CeldArrowEnd celd_arrow_end (const CeldColouredPaint *paint, const CeldArrowStroke *stroke, size_t k, CeldPoint at,
                              CeldPoint other, double width, CeldEndSight sight);
 
-/* Finds out which of n ends are known, and their places.  Arrow k has the ends 2 k and 2 k + 1.  Arrows
- * lead below others; those that are graded, which fade or taper, at their tips alone. */
+/* Finds out which of n ends are known, and their places.  Arrow k has the ends 2 k and 2 k + 1.  Arrows lead below
+ * others; those that are graded, which fade or taper, at their tips alone. */
 void celd_arrow_ends_find (const CeldStrokeMask *component, bool graded, CeldArrowEnd *ends, size_t n);
 
 /* ------------------------------------------------------------------ coloured-arrows.c */

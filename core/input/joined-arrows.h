@@ -103,12 +103,6 @@ celd_joined_in_mask (const CeldJoinedLines *lines, CeldPoint p)
   return (CeldPoint) { p.x - lines->mask.left, p.y - lines->mask.top };
 }
 
-static inline double
-celd_points_apart (CeldPoint a, CeldPoint b)
-{
-  return hypot (a.x - b.x, a.y - b.y);
-}
-
 static inline CeldPoint
 celd_moved (CeldPoint p, CeldPoint way, double distance)
 {
