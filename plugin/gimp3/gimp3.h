@@ -134,7 +134,7 @@ guint        celd_pictures_chosen (GimpProcedureConfig *config);
 void         celd_layers_chosen   (GimpProcedureConfig *config, GimpLayer *layer[CELD_N_LAYERS]); /* borrowed */
 
 /* Keep the arguments with the image, in a step of undo if wanted, and set those that were kept.  Layers that are not
- * found by their names are kept, too; layers are always set. */
+ * found by their names are kept, too; layers and relations are always set, whatever was kept. */
 void celd_settings_remember (GimpImage *image, GimpProcedureConfig *config, gboolean undoable);
 void celd_settings_recall   (GimpImage *image, GimpProcedureConfig *config);
 

@@ -362,6 +362,7 @@ celd_settings_remember (GimpImage *image, GimpProcedureConfig *config, gboolean 
   g_key_file_unref (file);
 }
 
+/* Relations are places and colours of one image, and GIMP has filled in those of the last run on any image. */
 void
 celd_settings_recall (GimpImage *image, GimpProcedureConfig *config)
 {
@@ -369,6 +370,7 @@ celd_settings_recall (GimpImage *image, GimpProcedureConfig *config)
   guint        n;
   GParamSpec **specs = g_object_class_list_properties (G_OBJECT_GET_CLASS (config), &n);
 
+  g_object_set (config, "relations", "", NULL);
   for (guint i = 0; i < n; i++)
     if (is_kept (specs[i]))
       set_argument (file, G_OBJECT (config), specs[i]);

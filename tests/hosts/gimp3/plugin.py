@@ -95,12 +95,21 @@ def levels_have_the_relation(group):
     return difference.max() <= ERRORS[8] + 1e-6
 
 
-def relations_count():
+def relations_are_those_of_the_image():
+    """GIMP fills in those of the last run, whichever image that was on."""
+    last = os.path.join(Gimp.directory(), 'plug-in-settings', 'GimpProcedureConfigRun-plug-in-celdepth-popup.last')
+    os.makedirs(os.path.dirname(last), exist_ok=True)
+    with open(last, 'w', encoding='utf-8') as settings:
+        settings.write('(levels yes)\n(relations "those of another image")\n')
     image = open_people(8)
-    _, group, _ = pop_up(image, ['levels'])
-    check(not levels_have_the_relation(group), 'without a relation levels are others')
+    good, group, message = run('plug-in-celdepth-popup', image, Gimp.RunMode.WITH_LAST_VALS)
+    check(good and 'levels' in results(group) and not levels_have_the_relation(group),
+          f'relations of another image are left out {message}')
     _, group, _ = pop_up(image, ['levels'], relations=RELATION)
     check(levels_have_the_relation(group), 'relations count')
+    good, group, message = run('plug-in-celdepth-popup', image, Gimp.RunMode.WITH_LAST_VALS)
+    check(good and levels_have_the_relation(group), f'and stay with their image {message}')
+    os.remove(last)
     image.delete()
 
 
@@ -277,7 +286,7 @@ def set_up_layers_makes_what_is_missing():
 Gegl.init(None)
 results_are_those_of_the_command()
 a_second_run_updates_in_place()
-relations_count()
+relations_are_those_of_the_image()
 copies_are_the_artists()
 input_without_sense_is_refused()
 flat_colours_are_scribbles_by_themselves()
