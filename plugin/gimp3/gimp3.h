@@ -72,11 +72,12 @@ char *celd_paths_left_out_text (int n);
 GimpValueArray *celd_run (GimpProcedure *procedure, GimpRunMode run_mode, GimpImage *image, GimpDrawable **drawables,
                           GimpProcedureConfig *config, gpointer run_data);
 
-/* Whether this kind of image can be used, and whether there are the layers and arrows that are needed; *error is a
- * sentence for the artist. */
-gboolean celd_image_check  (GimpImage *image, GError **error);
-gboolean celd_layers_check (GimpLayer *const layer[CELD_N_LAYERS], const CeldPathArrows *paths, GimpProcedureConfig *config,
-                            GError **error);
+/* Whether no selection floats, whether also this kind of image can be used, and whether there are the layers and arrows
+ * that are needed; *error is a sentence for the artist. */
+gboolean celd_floating_check (GimpImage *image, GError **error);
+gboolean celd_image_check    (GimpImage *image, GError **error);
+gboolean celd_layers_check   (GimpLayer *const layer[CELD_N_LAYERS], const CeldPathArrows *paths,
+                              GimpProcedureConfig *config, GError **error);
 
 /* ------------------------------------------------------------------ layers.c */
 

@@ -38,14 +38,20 @@ fail (GError **error, const char *message)
 }
 
 gboolean
+celd_floating_check (GimpImage *image, GError **error)
+{
+  if (gimp_image_get_floating_sel (image))
+    return fail (error, _ ("There is a floating selection. Anchor it first: Layer > Anchor Floating Layer or Mask."));
+  return TRUE;
+}
+
+gboolean
 celd_image_check (GimpImage *image, GError **error)
 {
   if (gimp_image_get_base_type (image) != GIMP_RGB)
     return fail (error, _ ("This image has no colours, which scribbles and regions need. Turn it into an RGB image: "
                            "Image > Mode > RGB, or Cartoon Depth > Set up layers."));
-  if (gimp_image_get_floating_sel (image))
-    return fail (error, _ ("There is a floating selection. Anchor it first: Layer > Anchor Floating Layer or Mask."));
-  return TRUE;
+  return celd_floating_check (image, error);
 }
 
 /* Layers that a script does not name are found by their names. */

@@ -280,6 +280,14 @@ def set_up_layers_makes_what_is_missing():
     run('plug-in-celdepth-set-up-layers', image)
     check(len(image.get_layers()) == 4 and len(Gimp.Palette.get_by_name('Cartoon Depth').get_colors()) == 24,
           'a second time nothing is missing')
+    drawing.set_lock_content(False)
+    image.select_rectangle(Gimp.ChannelOps.REPLACE, 100, 50, 80, 90)
+    Gimp.Selection.float(image, [drawing], 0, 0)
+    image.remove_layer(by_name(image, 'Contours'))
+    n = len(image.get_layers())
+    good, _, message = run('plug-in-celdepth-set-up-layers', image)
+    check(not good and 'There is a floating selection' in message and len(image.get_layers()) == n,
+          f'refused: {message}')
     image.delete()
 
 
