@@ -2,6 +2,9 @@
  * group is moved, and get new pixels in place, so that opacity, mode, mask and visibility stay.  GIMP 3's plug-in marks
  * them in the same way.
  *
+ * Locks are the artist's: pixels that are locked stay, and a layer whose place is locked keeps that and its size.  A
+ * group locks the pixels of all that lies in it; its place cannot be locked.
+ *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "gimp2.h"
@@ -43,6 +46,15 @@ celd_results_is_group (gint32 item)
   return gimp_item_is_group (item) && is_marked (item, GROUP_PARASITE, NULL);
 }
 
+/* Whether the pixels of an item are locked, by itself or by a group that it lies in. */
+static gboolean
+is_locked (gint32 item)
+{
+  while (item >= 0 && !gimp_item_get_lock_content (item))
+    item = gimp_item_get_parent (item);
+  return item >= 0;
+}
+
 /* ------------------------------------------------------------------ finding */
 
 /* The lowest group of results that is not locked, below a group or in the image; -1: there is none.  A copy of a group,
@@ -59,7 +71,7 @@ find_group (gint32 image, gint32 parent)
       gint32 here = -1;
 
       if (celd_results_is_group (items[i]))
-        here = gimp_item_get_lock_content (items[i]) ? -1 : items[i];
+        here = is_locked (items[i]) ? -1 : items[i];
       else if (gimp_item_is_group (items[i]))
         here = find_group (image, items[i]);
       found = here >= 0 ? here : found;
@@ -119,17 +131,34 @@ add_layer (gint32 image, CeldPipeline *pipeline, gint32 group, CeldPicture pictu
   return good;
 }
 
+/* The part of a picture that lies on a layer, wherever that is, into a buffer of the layer's size. */
+static gboolean
+write_part (gint32 image, CeldPipeline *pipeline, CeldPicture picture, gint32 layer, GeglBuffer *buffer, GError **error)
+{
+  GeglBuffer   *whole = gegl_buffer_new (GEGL_RECTANGLE (0, 0, gimp_image_width (image), gimp_image_height (image)),
+                                         gegl_buffer_get_format (buffer));
+  GeglRectangle part = *gegl_buffer_get_extent (buffer);
+  gboolean      good = celd_pipeline_write (pipeline, picture, whole, error);
+
+  gimp_drawable_offsets (layer, &part.x, &part.y);
+  gegl_buffer_copy (whole, &part, GEGL_ABYSS_NONE, buffer, gegl_buffer_get_extent (buffer));
+  g_object_unref (whole);
+  return good;
+}
+
 /* Through the shadow buffer, which can be undone.  The caller has cleared the selection. */
 static gboolean
-update_layer (CeldPipeline *pipeline, CeldPicture picture, gint32 layer, GError **error)
+update_layer (gint32 image, CeldPipeline *pipeline, CeldPicture picture, gint32 layer, GError **error)
 {
-  gboolean    lock = gimp_layer_get_lock_alpha (layer), good;
+  gboolean    lock = gimp_layer_get_lock_alpha (layer), stays = gimp_item_get_lock_position (layer), good;
   GeglBuffer *buffer;
 
-  gimp_layer_resize_to_image_size (layer);
+  if (!stays)
+    gimp_layer_resize_to_image_size (layer);
   gimp_layer_set_lock_alpha (layer, FALSE);
   buffer = gimp_drawable_get_shadow_buffer (layer);
-  good   = celd_pipeline_write (pipeline, picture, buffer, error);
+  good   = stays ? write_part (image, pipeline, picture, layer, buffer, error)
+                 : celd_pipeline_write (pipeline, picture, buffer, error);
   g_object_unref (buffer);
   gimp_drawable_merge_shadow (layer, TRUE);
   gimp_drawable_update (layer, 0, 0, gimp_drawable_width (layer), gimp_drawable_height (layer));
@@ -149,12 +178,12 @@ write_all (gint32 image, CeldPipeline *pipeline, gint32 group, guint wanted, GEr
     {
       CeldPicture picture = celd_pictures_stacked[i];
       gint32      layer = find_layer (group, picture);
-      gboolean    locked = layer >= 0 && gimp_item_get_lock_content (layer), make = (wanted & 1u << picture) != 0;
+      gboolean    locked = layer >= 0 && is_locked (layer), make = (wanted & 1u << picture) != 0;
 
       if (layer < 0 && make)
         good = add_layer (image, pipeline, group, picture, position++, fresh, error);
       else if (layer >= 0 && make && !locked)
-        good = update_layer (pipeline, picture, layer, error);
+        good = update_layer (image, pipeline, picture, layer, error);
       if (layer >= 0 && !make && !locked)
         gimp_image_remove_layer (image, layer);
       else if (layer >= 0)

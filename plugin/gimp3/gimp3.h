@@ -151,6 +151,9 @@ void celd_preset_follow       (GimpProcedureConfig *config);
 
 gboolean celd_results_is_group (GimpItem *item);
 
+/* Whether the pixels of an item are locked, by itself or by a group that it lies in. */
+gboolean celd_item_is_locked (gpointer item);
+
 /* Marks an item, so that it is found again in its file, or says whether it is marked, with this text if that is not
  * NULL. */
 #define CELD_PICTURE_MARK "celdepth-picture" /* with the name of a picture */
@@ -184,7 +187,7 @@ void         celd_selection_restore (GimpImage *image, GimpChannel *selection);
 /* The layer with this mark in a group of results; NULL: there is none. */
 GimpLayer *celd_results_find (GimpImage *image, const char *mark);
 
-/* The same if its pixels may be written: neither they nor those of its group are locked. */
+/* The same if its pixels may be written: they are not locked. */
 GimpLayer *celd_results_find_unlocked (GimpImage *image, const char *mark);
 
 /* ------------------------------------------------------------------ dialog.c */

@@ -1,6 +1,9 @@
 /* The group with the results: its layers are found again by parasites, whatever the artist calls them and wherever the
  * group is moved, and get new pixels in place, so that opacity, mode, mask and visibility stay.
  *
+ * Locks are the artist's: pixels that are locked stay, and a layer whose place is locked keeps that and its size.  A
+ * group locks all that lies in it.
+ *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "gimp3.h"
@@ -40,6 +43,23 @@ celd_results_is_group (GimpItem *item)
   return gimp_item_is_group (item) && celd_item_is_marked (item, GROUP_PARASITE, NULL);
 }
 
+/* ------------------------------------------------------------------ locks */
+
+/* Whether an item has one kind of lock, or a group that it lies in. */
+static gboolean
+has_lock (GimpItem *item, gboolean (*get_lock) (GimpItem *item))
+{
+  while (item && !get_lock (item))
+    item = gimp_item_get_parent (item);
+  return item != NULL;
+}
+
+gboolean
+celd_item_is_locked (gpointer item)
+{
+  return has_lock (GIMP_ITEM (item), gimp_item_get_lock_content);
+}
+
 /* ------------------------------------------------------------------ finding */
 
 /* The lowest group of results among these items and inside them, that is locked or that is not.  A copy of a group, or
@@ -54,7 +74,7 @@ find_group (GimpItem **items, gboolean locked)
       GimpItem *here = NULL;
 
       if (celd_results_is_group (items[i]))
-        here = !gimp_item_get_lock_content (items[i]) == !locked ? items[i] : NULL;
+        here = celd_item_is_locked (items[i]) == locked ? items[i] : NULL;
       else if (gimp_item_is_group (items[i]))
         {
           GimpItem **children = gimp_item_get_children (items[i]);
@@ -118,7 +138,7 @@ celd_results_find_unlocked (GimpImage *image, const char *mark)
 {
   GimpLayer *layer = find_layer (find_group_of_image (image, FALSE), mark);
 
-  return layer && !gimp_item_get_lock_content (GIMP_ITEM (layer)) ? layer : NULL;
+  return layer && !celd_item_is_locked (layer) ? layer : NULL;
 }
 
 /* ------------------------------------------------------------------ writing */
@@ -154,18 +174,36 @@ add_layer (const Writing *w, const CeldResultLayer *l, int position, gboolean vi
   return good;
 }
 
+/* The part of a picture that lies on a layer, wherever that is, into a buffer of the layer's size. */
+static gboolean
+write_part (const Writing *w, const CeldResultLayer *l, GimpDrawable *drawable, GeglBuffer *buffer, GError **error)
+{
+  GeglBuffer   *whole = gegl_buffer_new (GEGL_RECTANGLE (0, 0, gimp_image_get_width (w->image),
+                                                         gimp_image_get_height (w->image)),
+                                         gegl_buffer_get_format (buffer));
+  GeglRectangle part = *gegl_buffer_get_extent (buffer);
+  gboolean      good = write_pixels (w, l, whole, error);
+
+  gimp_drawable_get_offsets (drawable, &part.x, &part.y);
+  gegl_buffer_copy (whole, &part, GEGL_ABYSS_NONE, buffer, gegl_buffer_get_extent (buffer));
+  g_object_unref (whole);
+  return good;
+}
+
 /* Through the shadow buffer, which can be undone.  The caller has cleared the selection. */
 static gboolean
 update_layer (const Writing *w, const CeldResultLayer *l, GimpLayer *layer, GError **error)
 {
   GimpDrawable *drawable = GIMP_DRAWABLE (layer);
-  gboolean      lock = gimp_layer_get_lock_alpha (layer), good;
+  gboolean      lock = gimp_layer_get_lock_alpha (layer), stays, good;
   GeglBuffer   *buffer;
 
-  gimp_layer_resize_to_image_size (layer);
+  stays = has_lock (GIMP_ITEM (layer), gimp_item_get_lock_position);
+  if (!stays)
+    gimp_layer_resize_to_image_size (layer);
   gimp_layer_set_lock_alpha (layer, FALSE);
   buffer = gimp_drawable_get_shadow_buffer (drawable);
-  good   = write_pixels (w, l, buffer, error);
+  good   = stays ? write_part (w, l, drawable, buffer, error) : write_pixels (w, l, buffer, error);
   g_object_unref (buffer);
   gimp_drawable_merge_shadow (drawable, TRUE);
   gimp_drawable_update (drawable, 0, 0, gimp_drawable_get_width (drawable), gimp_drawable_get_height (drawable));
@@ -186,7 +224,7 @@ write_all (const Writing *w, GError **error)
     {
       const CeldResultLayer *l = &w->results->layer[i];
       GimpLayer             *layer = find_layer (GIMP_ITEM (w->group), l->mark);
-      gboolean               locked = layer && gimp_item_get_lock_content (GIMP_ITEM (layer));
+      gboolean               locked = layer && celd_item_is_locked (layer);
       gboolean               make = (w->wanted & 1u << l->picture) != 0;
 
       if (!layer && make)

@@ -27,8 +27,7 @@ remove_old (GimpImage *image)
     {
       GimpLayer *layer = g_array_index (listed, CeldListedLayer, i).layer;
 
-      if (celd_item_is_marked (GIMP_ITEM (layer), CELD_PICTURE_MARK, MARK) &&
-          !gimp_item_get_lock_content (GIMP_ITEM (layer)))
+      if (celd_item_is_marked (GIMP_ITEM (layer), CELD_PICTURE_MARK, MARK) && !celd_item_is_locked (layer))
         gimp_image_remove_layer (image, layer);
     }
   g_array_unref (listed);

@@ -87,6 +87,49 @@ def a_second_run_updates_in_place():
     image.delete()
 
 
+def locks_are_kept():
+    image = open_people(8)
+    _, group, _ = pop_up(image, ['depth', 'levels', 'regions'])
+    first = results(group)
+    inner = Gimp.GroupLayer.new(image, 'inner')
+    outer = Gimp.GroupLayer.new(image, 'outer')
+    image.insert_layer(outer, None, 0)
+    image.insert_layer(inner, outer, 0)
+    image.reorder_item(group, inner, 0)
+    boxes = {'depth': (300, 200, 120, 80), 'levels': (-40, 100, 500, 300)}
+    for name, (x, y, width, height) in boxes.items():
+        first[name].resize(width, height, -x, -y)
+        first[name].set_lock_position(True)
+        first[name].fill(Gimp.FillType.WHITE)
+    pop_up(image, ['depth', 'levels', 'regions'])
+    for name, (x, y, width, height) in boxes.items():
+        layer = first[name]
+        offsets = tuple(layer.get_offsets()[1:])
+        check((*offsets, layer.get_width(), layer.get_height()) == (x, y, width, height),
+              f'a layer whose place is locked keeps it: {offsets}, {layer.get_width()} x {layer.get_height()}')
+        found = pixels(layer, "R'G'B' float", np.float32, 3)[max(-y, 0):, max(-x, 0):]
+        wanted = reference(name, 8)[max(y, 0):y + height, max(x, 0):x + width]
+        check(np.abs(found - wanted).max() <= ERRORS[8] + 1e-6, f'and gets the part of the picture on it: {name}')
+    for layer in first.values():
+        layer.set_lock_position(False)
+    first['regions'].resize(50, 60, 0, 0)
+    outer.set_lock_position(True)
+    pop_up(image, ['depth', 'levels', 'regions'])
+    check([layer.get_width() for layer in first.values()] == [120, 500, 50],
+          'a group around the group of results locks the places of its layers')
+    outer.set_lock_position(False)
+    outer.set_lock_content(True)
+    kept = {name: pixels(layer, 'RGB float', np.float32, 3) for name, layer in first.items()}
+    good, again, message = pop_up(image, ['depth', 'lit'])
+    check(good and again.get_id() != group.get_id() and sorted(results(again)) == ['depth', 'lit'],
+          f'if a group around it locks pixels, another group is made {message}')
+    compare(again, 8, 'beside a locked group')
+    check(sorted(results(group)) == sorted(kept) and
+          all(np.array_equal(kept[name], pixels(layer, 'RGB float', np.float32, 3)) for name, layer in first.items()),
+          'and the locked one stays as it is')
+    image.delete()
+
+
 RELATION = '300,770 > 700,830'  # with which the command made both-levels.npy
 
 
@@ -294,6 +337,7 @@ def set_up_layers_makes_what_is_missing():
 Gegl.init(None)
 results_are_those_of_the_command()
 a_second_run_updates_in_place()
+locks_are_kept()
 relations_are_those_of_the_image()
 copies_are_the_artists()
 input_without_sense_is_refused()
