@@ -1,13 +1,15 @@
 # Writes the names of the layers of the open image to $CELDEPTH_OUT/state.txt, twice a second, until there is a file
-# $CELDEPTH_OUT/stop; for tests with a screen.  For the Python interpreter of GIMP 3.
+# $CELDEPTH_OUT/stop; then the plug-in's parasites, and whether the layer Depth is white, which a file
+# $CELDEPTH_OUT/fill makes it in a step of undo.  For tests with a screen, and the Python interpreter of GIMP 3.
 #
 # SPDX-License-Identifier: LGPL-3.0-or-later
 import os
 import time
 
 import gi
+gi.require_version('Gegl', '0.4')
 gi.require_version('Gimp', '3.0')
-from gi.repository import Gimp  # noqa: E402
+from gi.repository import Gegl, Gimp  # noqa: E402
 
 OUT = os.environ['CELDEPTH_OUT']
 
@@ -16,11 +18,34 @@ def tree(layers):
     return [[layer.get_name(), *tree(layer.get_children())] if layer.is_group() else layer.get_name() for layer in layers]
 
 
+def kept(image):
+    return [name for name in image.get_parasite_list() if name.startswith('celdepth-')]
+
+
+def find_depth(layers):
+    for layer in layers:
+        found = find_depth(layer.get_children()) if layer.is_group() else layer if layer.get_name() == 'Depth' else None
+        if found:
+            return found
+    return None
+
+
+def is_white(layer):
+    data = layer.get_buffer().get(Gegl.Rectangle.new(0, 0, layer.get_width(), layer.get_height()), 1.0, "R'G'B' u8",
+                                  Gegl.AbyssPolicy.NONE)
+    return min(data) == 255
+
+
+Gegl.init(None)
 while not os.path.exists(os.path.join(OUT, 'stop')):
     images = Gimp.get_images()
     if images:
+        depth = find_depth(images[0].get_layers())
+        if os.path.exists(os.path.join(OUT, 'fill')):
+            depth.edit_fill(Gimp.FillType.WHITE)
+            os.remove(os.path.join(OUT, 'fill'))
         with open(os.path.join(OUT, 'state.new'), 'w') as f:
-            kept = [name for name in images[0].get_parasite_list() if name.startswith('celdepth-')]
-            print(tree(images[0].get_layers()), kept, file=f)
+            print(tree(images[0].get_layers()), kept(images[0]), file=f, end='')
+            print(' white' if depth and is_white(depth) else '', file=f)
         os.replace(os.path.join(OUT, 'state.new'), os.path.join(OUT, 'state.txt'))
     time.sleep(0.5)
