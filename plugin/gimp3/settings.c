@@ -186,11 +186,12 @@ celd_settings_put (GimpProcedureConfig *config, const CeldSettings *settings)
     }
 }
 
+/* GIMP keeps the arguments of the last run in the image's own file, which this one must not be in; see files.c. */
 void
 celd_file_add_argument (GimpProcedure *procedure, const char *help)
 {
   gimp_procedure_add_file_argument (procedure, "file", _ ("F_ile"), help, GIMP_FILE_CHOOSER_ACTION_SAVE, TRUE, NULL,
-                                    G_PARAM_READWRITE);
+                                    G_PARAM_READWRITE | GIMP_PARAM_DONT_SERIALIZE);
 }
 
 guint

@@ -1,6 +1,7 @@
 # Writes the names of the layers of the open image to $CELDEPTH_OUT/state.txt, twice a second, until there is a file
-# $CELDEPTH_OUT/stop; then the plug-in's parasites, and whether the layer Depth is white, which a file
-# $CELDEPTH_OUT/fill makes it in a step of undo.  For tests with a screen, and the Python interpreter of GIMP 3.
+# $CELDEPTH_OUT/stop; then the plug-in's parasites, those that would save a path of this folder in the image's file, and
+# whether the layer Depth is white, which a file $CELDEPTH_OUT/fill makes it in a step of undo.  For tests with a screen
+# and the Python interpreter of GIMP 3.
 #
 # SPDX-License-Identifier: LGPL-3.0-or-later
 import os
@@ -20,6 +21,12 @@ def tree(layers):
 
 def kept(image):
     return [name for name in image.get_parasite_list() if name.startswith('celdepth-')]
+
+
+def with_paths(image):
+    parasites = [image.get_parasite(name) for name in image.get_parasite_list()]
+    return [parasite.get_name() for parasite in parasites
+            if parasite.is_persistent() and OUT.encode() in bytes(parasite.get_data())]
 
 
 def find_depth(layers):
@@ -45,7 +52,7 @@ while not os.path.exists(os.path.join(OUT, 'stop')):
             depth.edit_fill(Gimp.FillType.WHITE)
             os.remove(os.path.join(OUT, 'fill'))
         with open(os.path.join(OUT, 'state.new'), 'w') as f:
-            print(tree(images[0].get_layers()), kept(images[0]), file=f, end='')
+            print(tree(images[0].get_layers()), kept(images[0]), with_paths(images[0]), file=f, end='')
             print(' white' if depth and is_white(depth) else '', file=f)
         os.replace(os.path.join(OUT, 'state.new'), os.path.join(OUT, 'state.txt'))
     time.sleep(0.5)
