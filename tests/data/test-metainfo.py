@@ -87,6 +87,7 @@ class Flatpak(unittest.TestCase):
                       'share/icons/hicolor/scalable/apps/celdepth.svg', 'share/locale/de/LC_MESSAGES/celdepth.mo'):
             self.assertIn(os.path.join(self.prefix, place), places)
         self.assertEqual([place for place in places if not place.startswith(self.prefix + '/')], [])
+        self.assertEqual([place for place in places if 'krita' in place], [], 'GIMP has no use for it')
 
     def test_options_exist(self):
         known = set(re.findall(r"^option\('([^']+)'", text_of('meson_options.txt'), re.M))
