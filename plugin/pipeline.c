@@ -91,7 +91,7 @@ check_input (const CeldPipelineInput *input, GError **error)
         return celd_pipeline_fail (error, _ ("The layer with '%s' lies outside the image. Move it over the image."),
                                    name_of (role));
       for (int other = 0; r && other < role; other++)
-        if (layer->buffer == input->layer[other].buffer)
+        if (layer->id && layer->id == input->layer[other].id)
           return celd_pipeline_fail (error, _ ("The same layer is chosen as '%s' and as '%s'. Give each a layer of its "
                                                "own."),
                                      name_of (other), name_of (role));

@@ -30,8 +30,9 @@ typedef enum
   CELD_N_PICTURES
 } CeldPicture;
 
-/* A layer, with the place of its upper left corner in the image; buffer NULL: there is none. */
-typedef struct { GeglBuffer *buffer; int x, y; } CeldPipelineLayer;
+/* A layer, with the place of its upper left corner in the image; buffer NULL: there is none.  The host's number of the
+ * layer tells whether another one is the same, whose buffer may be another; 0: unknown. */
+typedef struct { GeglBuffer *buffer; int x, y, id; } CeldPipelineLayer;
 
 typedef struct
 {

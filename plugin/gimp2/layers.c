@@ -63,6 +63,7 @@ celd_layers_open (gint32 image, const gint32 layer[CELD_N_LAYERS], CeldPipelineI
   for (int role = 0; role < CELD_N_LAYERS; role++)
     if (layer[role] >= 0)
       {
+        input->layer[role].id     = layer[role];
         input->layer[role].buffer = gimp_drawable_get_buffer (layer[role]);
         gimp_drawable_offsets (layer[role], &input->layer[role].x, &input->layer[role].y);
       }

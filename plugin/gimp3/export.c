@@ -25,7 +25,7 @@ picture_of (GimpProcedureConfig *config)
 static gboolean
 save_layer (GimpImage *image, GimpLayer *layer, const char *path, GError **error)
 {
-  CeldPipelineLayer from = { gimp_drawable_get_buffer (GIMP_DRAWABLE (layer)), 0, 0 };
+  CeldPipelineLayer from = { gimp_drawable_get_buffer (GIMP_DRAWABLE (layer)), 0, 0, 0 };
   gboolean          good;
 
   gimp_drawable_get_offsets (GIMP_DRAWABLE (layer), &from.x, &from.y);

@@ -150,11 +150,8 @@ celd_layers_open (GimpImage *image, GimpLayer *const layer[CELD_N_LAYERS], CeldP
             g_free (name);
             return FALSE;
           }
-        for (int other = 0; other < role && !to->buffer; other++)
-          if (layer[other] == layer[role]) /* one buffer, so that the pipeline notices */
-            to->buffer = g_object_ref (input->layer[other].buffer);
-        if (!to->buffer)
-          to->buffer = gimp_drawable_get_buffer (GIMP_DRAWABLE (layer[role]));
+        to->id     = gimp_item_get_id (GIMP_ITEM (layer[role]));
+        to->buffer = gimp_drawable_get_buffer (GIMP_DRAWABLE (layer[role]));
         gimp_drawable_get_offsets (GIMP_DRAWABLE (layer[role]), &to->x, &to->y);
       }
   return TRUE;

@@ -100,7 +100,7 @@ static gboolean
 take_pixels (CeldLiveFollower *f, int role, GeglBuffer *buffer)
 {
   CeldPipelineLayer *seen = &f->seen->input.layer[role];
-  CeldPipelineLayer  now = { NULL, 0, 0 };
+  CeldPipelineLayer  now = { NULL, 0, 0, 0 };
   GeglRectangle      extent;
   const Babl        *format;
   gsize              size;
@@ -221,6 +221,7 @@ take_layers (CeldLiveFollower *f, GimpLayer *const layer[CELD_N_LAYERS])
       {
         g_set_object (&f->layer[role], layer[role]);
         forget_layer (f, role);
+        f->seen->input.layer[role].id = layer[role] ? gimp_item_get_id (GIMP_ITEM (layer[role])) : 0;
         changed = TRUE;
       }
   return changed;

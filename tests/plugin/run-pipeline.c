@@ -49,7 +49,7 @@ crop (GeglBuffer *whole)
       if (pixels[4 * (y * r->width + x) + 3])
         gegl_rectangle_bounding_box (&box, &box, GEGL_RECTANGLE (x, y, 1, 1));
   layer = (CeldPipelineLayer) { gegl_buffer_new (GEGL_RECTANGLE (0, 0, box.width, box.height),
-                                                 babl_format ("R'G'B'A u8")), box.x, box.y };
+                                                 babl_format ("R'G'B'A u8")), box.x, box.y, 0 };
   gegl_buffer_copy (whole, &box, GEGL_ABYSS_NONE, layer.buffer, GEGL_RECTANGLE (0, 0, 0, 0));
   g_object_unref (whole);
   g_free (pixels);
@@ -130,7 +130,7 @@ main (int argc, char **argv)
         {
           GeglBuffer *buffer = load (argv[i] + strlen (roles[role]) + 1);
 
-          input.layer[role] = role ? crop (buffer) : (CeldPipelineLayer) { buffer, 0, 0 };
+          input.layer[role] = role ? crop (buffer) : (CeldPipelineLayer) { buffer, 0, 0, 0 };
         }
   input.width  = gegl_buffer_get_width (input.layer[0].buffer);
   input.height = gegl_buffer_get_height (input.layer[0].buffer);

@@ -47,7 +47,7 @@ make_page (void)
 static CeldPipeline *
 page_pipeline (void)
 {
-  CeldPipelineInput input = { WIDTH, HEIGHT, { { NULL, 0, 0 } }, celd_settings (), "80,50 > 8,8", NULL };
+  CeldPipelineInput input = { WIDTH, HEIGHT, { { NULL, 0, 0, 0 } }, celd_settings (), "80,50 > 8,8", NULL };
 
   input.layer[CELD_LAYER_DRAWING].buffer   = drawing;
   input.layer[CELD_LAYER_SCRIBBLES].buffer = scribbles;

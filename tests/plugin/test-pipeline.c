@@ -11,7 +11,7 @@
 static CeldPipelineInput
 page_input (void)
 {
-  CeldPipelineInput input = { WIDTH, HEIGHT, { { NULL, 0, 0 } }, celd_settings (), NULL, NULL };
+  CeldPipelineInput input = { WIDTH, HEIGHT, { { NULL, 0, 0, 0 } }, celd_settings (), NULL, NULL };
 
   input.layer[CELD_LAYER_DRAWING].buffer   = drawing;
   input.layer[CELD_LAYER_SCRIBBLES].buffer = scribbles;
@@ -81,8 +81,8 @@ layers_may_be_smaller_than_the_image (void)
 
   gegl_buffer_copy (arrows, GEGL_RECTANGLE (40, 35, 60, 30), GEGL_ABYSS_NONE, part, GEGL_RECTANGLE (0, 0, 0, 0));
   gegl_buffer_copy (scribbles, NULL, GEGL_ABYSS_NONE, larger, GEGL_RECTANGLE (13, 5, 0, 0));
-  input.layer[CELD_LAYER_ARROWS]    = (CeldPipelineLayer) { part, 40, 35 };
-  input.layer[CELD_LAYER_SCRIBBLES] = (CeldPipelineLayer) { larger, -13, -5 };
+  input.layer[CELD_LAYER_ARROWS]    = (CeldPipelineLayer) { part, 40, 35, 0 };
+  input.layer[CELD_LAYER_SCRIBBLES] = (CeldPipelineLayer) { larger, -13, -5, 0 };
   CHECK (make (&input, CELD_PICTURE_DEPTH, "Y float", "Y float", result));
   SAME (depth.data, 1);
   input.layer[CELD_LAYER_ARROWS].x = 0; /* there the arrow points elsewhere */
@@ -271,7 +271,9 @@ input_without_sense_is_refused (void)
   input.layer[CELD_LAYER_ARROWS].x = WIDTH;
   CHECK (refused (&input, "'Arrows' lies outside the image"));
   input = page_input ();
-  input.layer[CELD_LAYER_CONTOURS].buffer = scribbles;
+  input.layer[CELD_LAYER_SCRIBBLES].id    = 7;
+  input.layer[CELD_LAYER_CONTOURS].buffer = page; /* of the same layer, opened again */
+  input.layer[CELD_LAYER_CONTOURS].id     = 7;
   CHECK (refused (&input, "chosen as 'Scribbles' and as 'Contours'"));
   input = page_input ();
   input.relations = "12,34 < x";
@@ -320,7 +322,7 @@ other_layers_than_meant_are_refused (void)
 static void
 only_grey_layers_are_depth (void)
 {
-  CeldPipelineLayer painted = { scribbles, 0, 0 }, drawn = { drawing, 0, 0 };
+  CeldPipelineLayer painted = { scribbles, 0, 0, 0 }, drawn = { drawing, 0, 0, 0 };
   GError           *error = NULL;
 
   CHECK (!celd_pipeline_check_grey (&painted, &error));
@@ -361,7 +363,7 @@ only_numbers_are_depth (void)
     {
       float             pixel[2][4] = { { 1, 1, 1, 1 }, { NAN, NAN, NAN, (float) i } };
       GeglBuffer       *buffer = gegl_buffer_new (GEGL_RECTANGLE (0, 0, 2, 1), babl_format ("RGBA float"));
-      CeldPipelineLayer layer = { buffer, 0, 0 };
+      CeldPipelineLayer layer = { buffer, 0, 0, 0 };
       GError           *error = NULL;
 
       gegl_buffer_set (buffer, NULL, 0, babl_format ("RGBA float"), pixel, GEGL_AUTO_ROWSTRIDE);
