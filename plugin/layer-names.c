@@ -86,7 +86,7 @@ celd_layer_roles_last (const CeldNamedLayer *layer, int n, const int found[CELD_
 
   for (int i = 0; i < n; i++)
     {
-      gboolean other = !layer[i].group;
+      gboolean other = !layer[i].needs_name;
 
       for (int role = 0; role < CELD_N_LAYERS; role++)
         other = other && found[role] != i;

@@ -23,14 +23,15 @@ const char *celd_layer_role_name (CeldLayerRole role);
 /* All names of a role in lower case and without accents, ended by NULL. */
 const char *const *celd_layer_role_names (CeldLayerRole role);
 
-/* A layer of an image: what it is called, and whether it is a group. */
-typedef struct { const char *name; gboolean group; } CeldNamedLayer;
+/* A layer of an image: what it is called, and whether only its name can make it the drawing, as that of a group or of a
+ * result. */
+typedef struct { const char *name; gboolean needs_name; } CeldNamedLayer;
 
 /* The layers by their names, as indices, -1 where there is none; the first one of a name counts.  Without a layer of
- * the drawing's name the only layer that has no other role, and is no group, is the drawing. */
+ * the drawing's name the only layer that has no other role, and needs no name, is the drawing. */
 void celd_layer_roles_find (const CeldNamedLayer *layer, int n, int found[CELD_N_LAYERS]);
 
-/* The last layer that has no role in `found`, and is no group; -1: there is none.  *others, if not NULL, is how many
+/* The last layer that has no role in `found`, and needs no name; -1: there is none.  *others, if not NULL, is how many
  * there are. */
 int celd_layer_roles_last (const CeldNamedLayer *layer, int n, const int found[CELD_N_LAYERS], int *others);
 

@@ -59,6 +59,9 @@ void celd_layers_close (CeldPipelineInput *input);
 
 gboolean celd_results_is_group (gint32 item);
 
+/* Whether a layer was made by the plug-in, here or in GIMP 3, as a result, or is a copy of one. */
+gboolean celd_results_is_one (gint32 item);
+
 /* Writes the wanted pictures into the layers of the group, which is made if there is none, in one step of undo.
  * Layers of other pictures are removed; those whose pixels are locked stay as they are.  -1 on failure. */
 gint32 celd_results_write (gint32 image, CeldPipeline *pipeline, const CeldChoices *choices, GError **error);

@@ -1,6 +1,7 @@
 /* Finds the layers of an image by their names, and opens their buffers.
  *
  * A group with the name of a layer is that layer, as it is seen; layers inside other groups count as all others do.
+ * Results outside the group of results, such as copies, count by their names alone.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -44,7 +45,8 @@ celd_layers_find (gint32 image, gint32 found[CELD_N_LAYERS])
     {
       gint32 layer = g_array_index (listed, gint32, i);
 
-      named[i] = (CeldNamedLayer) { gimp_item_get_name (layer), gimp_item_is_group (layer) };
+      named[i] = (CeldNamedLayer) { gimp_item_get_name (layer), gimp_item_is_group (layer) ||
+                                                                celd_results_is_one (layer) };
     }
   celd_layer_roles_find (named, (int) listed->len, index);
   for (int role = 0; role < CELD_N_LAYERS; role++)

@@ -46,6 +46,12 @@ celd_results_is_group (gint32 item)
   return gimp_item_is_group (item) && is_marked (item, GROUP_PARASITE, NULL);
 }
 
+gboolean
+celd_results_is_one (gint32 item)
+{
+  return is_marked (item, PICTURE_PARASITE, NULL);
+}
+
 /* Whether the pixels of an item are locked, by itself or by a group that it lies in. */
 static gboolean
 is_locked (gint32 item)

@@ -156,7 +156,7 @@ gboolean celd_item_is_locked (gpointer item);
 
 /* Marks an item, so that it is found again in its file, or says whether it is marked, with this text if that is not
  * NULL. */
-#define CELD_PICTURE_MARK "celdepth-picture" /* with the name of a picture */
+#define CELD_PICTURE_MARK "celdepth-picture" /* of a result, with the name of a picture */
 void     celd_item_mark      (gpointer item, const char *name, const char *text);
 gboolean celd_item_is_marked (GimpItem *item, const char *name, const char *text);
 

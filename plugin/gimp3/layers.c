@@ -1,6 +1,7 @@
 /* Finds the layers of an image, by their names or as they were chosen, and opens their buffers.
  *
  * A group with the name of a layer is that layer, as it is seen; layers inside other groups count as all others do.
+ * Results outside the group of results (suggested arrows, layers that were split, copies) count by their names alone.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -54,7 +55,8 @@ get_names (const GArray *listed)
     {
       GimpItem *item = GIMP_ITEM (g_array_index (listed, CeldListedLayer, i).layer);
 
-      named[i] = (CeldNamedLayer) { gimp_item_get_name (item), gimp_item_is_group (item) };
+      named[i] = (CeldNamedLayer) { gimp_item_get_name (item), gimp_item_is_group (item) ||
+                                                               celd_item_is_marked (item, CELD_PICTURE_MARK, NULL) };
     }
   return named;
 }

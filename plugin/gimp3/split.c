@@ -6,6 +6,8 @@
  */
 #include "gimp3.h"
 
+#define MARK "part"
+
 static gboolean
 make (CeldPipeline *pipeline, GimpImage *image, GimpProcedureConfig *config, CeldPipelineProgress progress,
       gpointer data, GError **error)
@@ -31,6 +33,7 @@ add_layer (CeldPipeline *pipeline, GimpImage *image, GimpLayer *group, gsize i, 
       good = celd_pipeline_write_layer (pipeline, i, buffer, error);
       g_object_unref (buffer); /* which sends the pixels */
       gimp_layer_set_offsets (layer, box.x, box.y);
+      celd_item_mark (layer, CELD_PICTURE_MARK, MARK);
       gimp_image_insert_layer (image, layer, group, 0);
     }
   g_free (name);

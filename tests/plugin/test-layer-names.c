@@ -27,8 +27,8 @@ names_in_three_languages (void)
     CHECK (celd_layer_role_of_name (celd_layer_role_name ((CeldLayerRole) role)) == (CeldLayerRole) role);
 }
 
-/* The first of two layers of a name counts; the drawing needs no name if it is the only other layer that is no
- * group. */
+/* The first of two layers of a name counts; the drawing needs no name if it is the only other layer that is no group
+ * and no result. */
 static void
 roles_by_names (void)
 {

@@ -117,6 +117,14 @@
     (check (= 2 (length (children copy))) "and the copy stays as it is")
     (gimp-image-delete image)))
 
+;; A copy of a result is not taken for a drawing without a name.
+(define (check-copied-result examples)
+  (let* ((image (make-image examples PRECISION-U8-GAMMA '("art" "Scribbles" "Arrows")))
+         (copy (car (gimp-layer-copy (car (children (popup image "depth" "" ""))) FALSE))))
+    (gimp-image-insert-layer image copy 0 0)
+    (check (not (fails? image "depth" "" "")) "beside a copy of a result the drawing needs no name")
+    (gimp-image-delete image)))
+
 ;; A layer whose place is locked keeps it; pixels that a group further out locks stay.
 (define (check-locks examples out)
   (let* ((image (make-image examples PRECISION-U8-GAMMA '("Drawing" "Scribbles" "Arrows")))
@@ -204,6 +212,7 @@
   (check-results examples out "32" PRECISION-FLOAT-LINEAR '("Drawing" "Scribbles" "Arrows"))
   (check-again examples out)
   (check-copied-group examples)
+  (check-copied-result examples)
   (check-locks examples out)
   (check-flats examples)
   (check-bad-input examples)

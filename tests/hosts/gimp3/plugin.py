@@ -303,6 +303,21 @@ def suggestions_are_arrows():
     image.delete()
 
 
+def results_are_not_the_drawing():
+    image = open_people(8, ('ink on paper', 'Scribbles', 'Arrows'))
+    names = [layer.get_name() for layer in all_layers(image.get_layers())]
+    run('plug-in-celdepth-suggest-order', image)
+    good, _, message = run('plug-in-celdepth-split-into-layers', image)
+    check(good, f'beside suggested arrows the drawing needs no name {message}')
+    good, group, message = pop_up(image, ['depth'])
+    check(good, f'nor beside layers that were split {message}')
+    image.insert_layer(results(group)['depth'].copy(), None, 0)
+    good, _, message = run('plug-in-celdepth-set-up-layers', image)
+    renamed = [layer.get_name() for layer in all_layers(image.get_layers())]
+    check(good and names[-1] == 'ink on paper' and renamed[-1] == 'Drawing', f'nor beside a copy of depth {message}')
+    image.delete()
+
+
 def set_up_layers_makes_what_is_missing():
     image = Gimp.file_load(QUIET, file(EXAMPLES, 'people', 'drawing.png'))
     if image.get_base_type() == Gimp.ImageBaseType.RGB:
@@ -347,6 +362,7 @@ layers_found_by_name_are_found_again()
 presets_are_those_of_the_command()
 layers_are_the_drawing_again()
 suggestions_are_arrows()
+results_are_not_the_drawing()
 set_up_layers_makes_what_is_missing()
 image = open_people(8, small=True)
 Gimp.file_save(QUIET, image, file(OUT, 'plugin-people.xcf'), None)
