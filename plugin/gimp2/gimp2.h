@@ -51,7 +51,7 @@ GArray *celd_layers_list (gint32 image);
 /* The layers by their names, -1 where there is none: see celd_layer_roles_find. */
 void celd_layers_find (gint32 image, gint32 found[CELD_N_LAYERS]);
 
-/* Opens their buffers, with the places of the layers. */
+/* Opens their buffers, with the places of the layers, as they are seen. */
 void celd_layers_open  (gint32 image, const gint32 layer[CELD_N_LAYERS], CeldPipelineInput *input);
 void celd_layers_close (CeldPipelineInput *input);
 

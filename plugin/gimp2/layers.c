@@ -1,7 +1,8 @@
 /* Finds the layers of an image by their names, and opens their buffers.
  *
- * A group with the name of a layer is that layer, as it is seen; layers inside other groups count as all others do.
- * Results outside the group of results, such as copies, count by their names alone.
+ * A group with the name of a layer is that layer, as it is seen; and so is a layer with a mask, but for its visibility,
+ * opacity and mode, which say how it lies over others.  Layers inside other groups count as all others do.  Results
+ * outside the group of results, such as copies, count by their names alone.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -57,6 +58,42 @@ celd_layers_find (gint32 image, gint32 found[CELD_N_LAYERS])
   g_array_unref (listed);
 }
 
+/* An image like another one, without a display and steps of undo, for copies. */
+static gint32
+image_like (gint32 image)
+{
+  GimpColorProfile *profile = gimp_image_get_color_profile (image);
+  gint32            made = gimp_image_new_with_precision (1, 1, GIMP_RGB, gimp_image_get_precision (image));
+
+  gimp_image_undo_disable (made);
+  if (profile)
+    gimp_image_set_color_profile (made, profile);
+  g_clear_object (&profile);
+  return made;
+}
+
+/* The pixels of a layer with its mask, in memory of their own: of a copy alone in a group, which has masks applied. */
+static GeglBuffer *
+masked_pixels (gint32 image, gint32 layer)
+{
+  gint32      own = image_like (image), group = gimp_layer_group_new (own);
+  gint32      copy = gimp_layer_new_from_drawable (layer, own);
+  GeglBuffer *buffer, *pixels;
+
+  gimp_image_insert_layer (own, group, 0, 0);
+  gimp_item_set_visible (copy, TRUE);
+  gimp_layer_set_opacity (copy, 100);
+  gimp_layer_set_mode (copy, GIMP_LAYER_MODE_NORMAL);
+  gimp_image_insert_layer (own, copy, group, 0);
+  if (gimp_layer_get_show_mask (copy))
+    gimp_layer_set_show_mask (copy, FALSE);
+  buffer = gimp_drawable_get_buffer (group);
+  pixels = gegl_buffer_dup (buffer);
+  g_object_unref (buffer);
+  gimp_image_delete (own);
+  return pixels;
+}
+
 void
 celd_layers_open (gint32 image, const gint32 layer[CELD_N_LAYERS], CeldPipelineInput *input)
 {
@@ -65,9 +102,12 @@ celd_layers_open (gint32 image, const gint32 layer[CELD_N_LAYERS], CeldPipelineI
   for (int role = 0; role < CELD_N_LAYERS; role++)
     if (layer[role] >= 0)
       {
-        input->layer[role].id     = layer[role];
-        input->layer[role].buffer = gimp_drawable_get_buffer (layer[role]);
-        gimp_drawable_offsets (layer[role], &input->layer[role].x, &input->layer[role].y);
+        CeldPipelineLayer *to = &input->layer[role];
+        gboolean           masked = gimp_layer_get_mask (layer[role]) >= 0 && gimp_layer_get_apply_mask (layer[role]);
+
+        to->id     = layer[role];
+        to->buffer = masked ? masked_pixels (image, layer[role]) : gimp_drawable_get_buffer (layer[role]);
+        gimp_drawable_offsets (layer[role], &to->x, &to->y);
       }
 }
 

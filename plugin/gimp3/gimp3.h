@@ -97,10 +97,19 @@ void celd_layers_find_inside (GimpLayer *group, GimpLayer *found[CELD_N_LAYERS])
 /* The lowest layer that has no role in `found`; NULL: there is none. */
 GimpLayer *celd_layers_lowest (GimpImage *image, GimpLayer *const found[CELD_N_LAYERS]);
 
+/* An empty image of this size with the numbers and the profile of another one, without a display and steps of undo. */
+GimpImage *celd_image_like (GimpImage *image, int width, int height);
+
+/* Whether a layer has no mask and no effects that are seen.  Else its pixels and its place, as it is seen alone, in
+ * memory of their own; `own`, an image like the layer's, is for copies.  buffer NULL: the layer is gone. */
+gboolean          celd_layer_is_plain (GimpLayer *layer);
+CeldPipelineLayer celd_layer_seen     (GimpLayer *layer, GimpImage *own);
+
 /* Whether the image has 8 bits a channel. */
 gboolean celd_image_has_few_bits (GimpImage *image);
 
-/* Opens buffers, with the places of the layers.  FALSE and *error if a layer does not belong to the image. */
+/* Opens buffers, with the places of the layers, as they are seen.  FALSE and *error if a layer does not belong to the
+ * image. */
 gboolean celd_layers_open  (GimpImage *image, GimpLayer *const layer[CELD_N_LAYERS], CeldPipelineInput *input,
                             GError **error);
 void     celd_layers_close (CeldPipelineInput *input);

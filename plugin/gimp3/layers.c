@@ -1,7 +1,9 @@
 /* Finds the layers of an image, by their names or as they were chosen, and opens their buffers.
  *
- * A group with the name of a layer is that layer, as it is seen; layers inside other groups count as all others do.
- * Results outside the group of results (suggested arrows, layers that were split, copies) count by their names alone.
+ * A group with the name of a layer is that layer, as it is seen; and so is a layer with a mask or with effects, but for
+ * its visibility, opacity and mode, which say how it lies over others.  Layers inside other groups count as all others
+ * do.  Results outside the group of results (suggested arrows, layers that were split, copies) count by their names
+ * alone.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -122,6 +124,59 @@ celd_layers_lowest (GimpImage *image, GimpLayer *const found[CELD_N_LAYERS])
   return lowest;
 }
 
+/* ------------------------------------------------------------------ what is seen */
+
+GimpImage *
+celd_image_like (GimpImage *image, int width, int height)
+{
+  GimpColorProfile *profile = gimp_image_get_color_profile (image);
+  GimpImage        *made = gimp_image_new_with_precision (width, height, GIMP_RGB, gimp_image_get_precision (image));
+
+  gimp_image_undo_disable (made);
+  if (profile)
+    gimp_image_set_color_profile (made, profile);
+  g_clear_object (&profile);
+  return made;
+}
+
+gboolean
+celd_layer_is_plain (GimpLayer *layer)
+{
+  GimpDrawableFilter **effect = gimp_drawable_get_filters (GIMP_DRAWABLE (layer));
+  gboolean             plain = !gimp_layer_get_mask (layer) || !gimp_layer_get_apply_mask (layer);
+
+  for (int i = 0; effect && effect[i]; i++)
+    plain = plain && !gimp_drawable_filter_get_visible (effect[i]);
+  g_free (effect);
+  return plain;
+}
+
+/* The pixels of a group are those of its layers with their masks and effects. */
+CeldPipelineLayer
+celd_layer_seen (GimpLayer *layer, GimpImage *own)
+{
+  CeldPipelineLayer seen = { NULL, 0, 0, gimp_item_get_id (GIMP_ITEM (layer)) };
+  GimpLayer        *copy = gimp_layer_new_from_drawable (GIMP_DRAWABLE (layer), own), *group;
+  GeglBuffer       *buffer;
+
+  if (!copy)
+    return seen;
+  group = GIMP_LAYER (gimp_group_layer_new (own, NULL));
+  gimp_image_insert_layer (own, group, NULL, 0);
+  gimp_item_set_visible (GIMP_ITEM (copy), TRUE);
+  gimp_layer_set_opacity (copy, 100);
+  gimp_layer_set_mode (copy, GIMP_LAYER_MODE_NORMAL);
+  gimp_image_insert_layer (own, copy, group, 0);
+  if (gimp_layer_get_show_mask (copy))
+    gimp_layer_set_show_mask (copy, FALSE);
+  gimp_drawable_get_offsets (GIMP_DRAWABLE (group), &seen.x, &seen.y);
+  buffer      = gimp_drawable_get_buffer (GIMP_DRAWABLE (group));
+  seen.buffer = gegl_buffer_dup (buffer);
+  g_object_unref (buffer);
+  gimp_image_remove_layer (own, group);
+  return seen;
+}
+
 /* ------------------------------------------------------------------ opening */
 
 gboolean
@@ -133,29 +188,41 @@ celd_image_has_few_bits (GimpImage *image)
          precision == GIMP_PRECISION_U8_PERCEPTUAL;
 }
 
+static CeldPipelineLayer
+open_layer (GimpImage *image, GimpLayer *layer)
+{
+  CeldPipelineLayer opened = { NULL, 0, 0, gimp_item_get_id (GIMP_ITEM (layer)) };
+  GimpImage        *own;
+
+  if (celd_layer_is_plain (layer))
+    {
+      opened.buffer = gimp_drawable_get_buffer (GIMP_DRAWABLE (layer));
+      gimp_drawable_get_offsets (GIMP_DRAWABLE (layer), &opened.x, &opened.y);
+      return opened;
+    }
+  own    = celd_image_like (image, 1, 1);
+  opened = celd_layer_seen (layer, own);
+  gimp_image_delete (own);
+  return opened;
+}
+
 gboolean
 celd_layers_open (GimpImage *image, GimpLayer *const layer[CELD_N_LAYERS], CeldPipelineInput *input, GError **error)
 {
   input->width  = gimp_image_get_width (image);
   input->height = gimp_image_get_height (image);
   for (int role = 0; role < CELD_N_LAYERS; role++)
-    if (layer[role])
+    if (layer[role] && gimp_item_get_image (GIMP_ITEM (layer[role])) != image)
       {
-        CeldPipelineLayer *to = &input->layer[role];
+        char *name = gimp_item_get_name (GIMP_ITEM (layer[role]));
 
-        if (gimp_item_get_image (GIMP_ITEM (layer[role])) != image)
-          {
-            char *name = gimp_item_get_name (GIMP_ITEM (layer[role]));
-
-            g_set_error (error, CELD_PIPELINE_ERROR, CELD_PIPELINE_FAILED,
-                         _ ("The layer \"%s\" belongs to another image. Choose a layer of this image."), name);
-            g_free (name);
-            return FALSE;
-          }
-        to->id     = gimp_item_get_id (GIMP_ITEM (layer[role]));
-        to->buffer = gimp_drawable_get_buffer (GIMP_DRAWABLE (layer[role]));
-        gimp_drawable_get_offsets (GIMP_DRAWABLE (layer[role]), &to->x, &to->y);
+        g_set_error (error, CELD_PIPELINE_ERROR, CELD_PIPELINE_FAILED,
+                     _ ("The layer \"%s\" belongs to another image. Choose a layer of this image."), name);
+        g_free (name);
+        return FALSE;
       }
+    else if (layer[role])
+      input->layer[role] = open_layer (image, layer[role]);
   return TRUE;
 }
 

@@ -97,22 +97,20 @@ read_pixels (CeldLiveFollower *f, GeglBuffer *buffer, gsize size)
 
 /* Whether the layer has become another one; then `seen` has it. */
 static gboolean
-take_pixels (CeldLiveFollower *f, int role, GeglBuffer *buffer)
+take_pixels (CeldLiveFollower *f, int role, CeldPipelineLayer now)
 {
   CeldPipelineLayer *seen = &f->seen->input.layer[role];
-  CeldPipelineLayer  now = { NULL, 0, 0, 0 };
   GeglRectangle      extent;
   const Babl        *format;
   gsize              size;
   gboolean           same;
 
-  extent = *gegl_buffer_get_extent (buffer);
-  format = gegl_buffer_get_format (buffer);
+  extent = *gegl_buffer_get_extent (now.buffer);
+  format = gegl_buffer_get_format (now.buffer);
   size   = (gsize) extent.width * (gsize) extent.height * (gsize) babl_format_get_bytes_per_pixel (format);
-  gimp_drawable_get_offsets (GIMP_DRAWABLE (f->layer[role]), &now.x, &now.y);
-  same = !read_pixels (f, buffer, size) ||
-         (seen->buffer && gegl_rectangle_equal (&extent, gegl_buffer_get_extent (seen->buffer)) &&
-          format == gegl_buffer_get_format (seen->buffer) && !memcmp (f->spare, f->pixels[role], size));
+  same   = !read_pixels (f, now.buffer, size) ||
+           (seen->buffer && gegl_rectangle_equal (&extent, gegl_buffer_get_extent (seen->buffer)) &&
+            format == gegl_buffer_get_format (seen->buffer) && !memcmp (f->spare, f->pixels[role], size));
   if (same && now.x == seen->x && now.y == seen->y)
     return FALSE;
   if (!same)
@@ -132,11 +130,20 @@ take_pixels (CeldLiveFollower *f, int role, GeglBuffer *buffer)
 static gboolean
 read_layer (CeldLiveFollower *f, int role)
 {
-  GimpLayer  *copy = gimp_layer_new_from_drawable (GIMP_DRAWABLE (f->layer[role]), f->own);
-  GeglBuffer *buffer = copy ? gimp_drawable_get_buffer (GIMP_DRAWABLE (copy)) : NULL;
-  gboolean    changed = buffer && take_pixels (f, role, buffer);
+  CeldPipelineLayer now = { NULL, 0, 0, 0 };
+  GimpLayer        *copy = NULL;
+  gboolean          changed;
 
-  g_clear_object (&buffer);
+  if (celd_layer_is_plain (f->layer[role]))
+    {
+      copy       = gimp_layer_new_from_drawable (GIMP_DRAWABLE (f->layer[role]), f->own);
+      now.buffer = copy ? gimp_drawable_get_buffer (GIMP_DRAWABLE (copy)) : NULL;
+      gimp_drawable_get_offsets (GIMP_DRAWABLE (f->layer[role]), &now.x, &now.y);
+    }
+  else
+    now = celd_layer_seen (f->layer[role], f->own);
+  changed = now.buffer && take_pixels (f, role, now);
+  g_clear_object (&now.buffer);
   if (copy)
     gimp_item_delete (GIMP_ITEM (copy));
   return changed;
@@ -260,10 +267,7 @@ make_own_image (CeldLiveFollower *f)
     {
       if (f->own)
         gimp_image_delete (f->own);
-      f->own = gimp_image_new_with_precision (1, 1, GIMP_RGB, precision);
-      gimp_image_undo_disable (f->own);
-      if (profile)
-        gimp_image_set_color_profile (f->own, profile);
+      f->own = celd_image_like (f->image, 1, 1);
     }
   g_clear_object (&profile);
   g_clear_object (&own);

@@ -62,17 +62,12 @@ write_layer (CeldPipeline *pipeline, int layer, gpointer config, GeglBuffer *buf
 static GimpImage *
 new_image (GimpImage *like, GimpProcedureConfig *config)
 {
-  int               width, height;
-  double            x, y;
-  GimpImage        *image;
-  GimpColorProfile *profile = gimp_image_get_color_profile (like);
+  int        width, height;
+  double     x, y;
+  GimpImage *image;
 
   joined_size (like, config, &width, &height);
-  image = gimp_image_new_with_precision (width, height, GIMP_RGB, gimp_image_get_precision (like));
-  gimp_image_undo_disable (image);
-  if (profile)
-    gimp_image_set_color_profile (image, profile);
-  g_clear_object (&profile);
+  image = celd_image_like (like, width, height);
   if (gimp_image_get_resolution (like, &x, &y))
     gimp_image_set_resolution (image, x, y);
   return image;

@@ -67,7 +67,7 @@ def compare(out, bits, layer, name, part=(slice(None), slice(None))):
 def main():
     out = sys.argv[1]
     results = [compare(out, bits, layer, name) for bits in ('8', '16', '32') for layer, name in LAYERS.items()]
-    results.append(compare(out, 'again', 'Lit drawing', 'lit'))
+    results += [compare(out, what, 'Lit drawing', 'lit') for what in ('again', 'masked')]
     results.append(compare(out, 'part', 'Lit drawing', 'lit', (slice(150, 450), slice(200, 700))))
     results += checks_of_plugin(out, 'plugin-german.txt')
     print(f'{sum(results)} passed, {len(results) - sum(results)} failed')

@@ -205,6 +205,64 @@ def input_without_sense_is_refused():
     refused(image, 'chosen as', scribbles=by_name(image, 'Drawing'))
 
 
+def empty_place(layer, channel, nothing):
+    """A square without paint, in the coordinates of the layer."""
+    side = 60
+    paint = pixels(layer, channel, np.float32, 1)[..., 0] != nothing
+    return next((x, y, side, side) for y in range(0, paint.shape[0] - side, 20)
+                for x in range(0, paint.shape[1] - side, 20) if not paint[y:y + side, x:x + side].any())
+
+
+def mask_out(image, layer, box, colour):
+    """Paints on a layer where its new mask hides it."""
+    mask = layer.create_mask(Gimp.AddMaskType.WHITE)
+    layer.add_mask(mask)
+    offsets = layer.get_offsets()
+    image.select_rectangle(Gimp.ChannelOps.REPLACE, box[0] + offsets.offset_x, box[1] + offsets.offset_y, *box[2:])
+    Gimp.context_set_foreground(Gegl.Color.new('black'))
+    mask.edit_fill(Gimp.FillType.FOREGROUND)
+    Gimp.context_set_foreground(Gegl.Color.new(colour))
+    (layer.get_children()[0] if layer.is_group() else layer).edit_fill(Gimp.FillType.FOREGROUND)
+    Gimp.Selection.none(image)
+
+
+def layers_are_read_as_they_are_seen():
+    for bits in (8, 32):
+        image = open_people(bits, small=True)
+        drawing, scribbles, arrows = (by_name(image, name) for name in ('Drawing', 'Scribbles', 'Arrows'))
+        arrows.set_name('strokes')
+        group = Gimp.GroupLayer.new(image, 'Arrows')
+        image.insert_layer(group, None, 0)
+        image.reorder_item(arrows, group, 0)
+        mask_out(image, drawing, empty_place(drawing, 'Y float', 1), 'black')
+        mask_out(image, scribbles, empty_place(scribbles, 'A float', 0), 'rgb(1.0,0.0,1.0)')
+        mask_out(image, group, empty_place(group, 'A float', 0), 'rgb(0.0,0.0,0.5)')
+        scribbles.set_visible(False)
+        scribbles.set_opacity(20)
+        scribbles.set_show_mask(True)
+        images, layers = len(Gimp.get_images()), len(list(all_layers(image.get_layers())))
+        good, made, message = pop_up(image, ['regions', 'depth'])
+        check(good, f'{bits} bits: layers with masks are read {message}')
+        compare(made, bits, 'with masks')
+        check(len(Gimp.get_images()) == images and len(list(all_layers(image.get_layers()))) == layers + 3,
+              'and no copies are left')
+        scribbles.set_apply_mask(False)
+        _, made, _ = pop_up(image, ['regions'])
+        found = pixels(results(made)['regions'], "R'G'B' u8", np.uint8, 3)
+        check((found == (255, 0, 255)).all(2).any(), 'a mask that is not applied hides nothing')
+        image.delete()
+    image = open_people(8)
+    effect = Gimp.DrawableFilter.new(by_name(image, 'Scribbles'), 'gegl:invert-gamma', 'negative')
+    by_name(image, 'Scribbles').append_filter(effect)
+    _, made, _ = pop_up(image, ['regions'])
+    found = pixels(results(made)['regions'], "R'G'B' float", np.float32, 3)
+    check(np.abs(1 - found - reference('regions', 8)).max() <= 1.01 / 255, 'effects are seen')
+    effect.set_visible(False)
+    _, made, _ = pop_up(image, ['regions'])
+    compare(made, 8, 'an effect that is switched off')
+    image.delete()
+
+
 def flat_colours_are_scribbles_by_themselves():
     image = open_people(8)
     for name in ('Scribbles', 'Arrows'):
@@ -356,6 +414,7 @@ locks_are_kept()
 relations_are_those_of_the_image()
 copies_are_the_artists()
 input_without_sense_is_refused()
+layers_are_read_as_they_are_seen()
 flat_colours_are_scribbles_by_themselves()
 layers_can_be_named_by_a_script()
 layers_found_by_name_are_found_again()
