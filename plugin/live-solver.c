@@ -98,11 +98,12 @@ deliver (gpointer data)
   return G_SOURCE_REMOVE;
 }
 
-/* Takes what the answer owns. */
+/* Takes what the answer owns.  An answer is not the last one if a newer request has come in. */
 static void
 send (CeldLiveSolver *s, CeldLiveAnswer answer)
 {
   g_mutex_lock (&s->mutex);
+  answer.last = answer.last && !s->newest;
   g_queue_push_tail (&s->answers, g_memdup2 (&answer, sizeof answer));
   if (!s->delivery)
     s->delivery = g_idle_add_full (G_PRIORITY_DEFAULT, deliver, s, NULL);

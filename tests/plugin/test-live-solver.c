@@ -344,19 +344,26 @@ is_frame (const guint8 *pixels, const CeldLiveRequest *request, int frame)
   return good && !memcmp (wanted, pixels, sizeof wanted);
 }
 
+static CeldLiveRequest *
+relief_request (void)
+{
+  CeldLiveRequest *request = page_request (1u << CELD_LIVE_RELIEF);
+
+  request->relief_width  = WIDTH / 2;
+  request->relief_height = HEIGHT / 2;
+  return request;
+}
+
 /* From coarse to fine: whatever has come so far is spread over all of the turn. */
 static void
 the_relief_comes_in_all_positions (void)
 {
   Turning          t = { .good = true };
   CeldLiveSolver  *solver = celd_live_solver_new (turned, &t);
-  CeldLiveRequest *request = page_request (1u << CELD_LIVE_RELIEF), *copy;
+  CeldLiveRequest *request = relief_request (), *copy = celd_live_request_copy (request);
   gint64           until = g_get_monotonic_time () + PATIENCE;
   int              times[CELD_LIVE_FRAMES] = { 0 };
 
-  request->relief_width  = WIDTH / 2;
-  request->relief_height = HEIGHT / 2;
-  copy = celd_live_request_copy (request);
   celd_live_solver_ask (solver, request);
   while (!t.done && g_get_monotonic_time () < until)
     g_main_context_iteration (NULL, TRUE);
@@ -371,6 +378,40 @@ the_relief_comes_in_all_positions (void)
   celd_live_solver_free (solver);
   celd_live_request_free (copy);
   g_free (t.last);
+}
+
+/* Asks for two more reliefs, each at the first frame of the one before: the first relief is given up then, and the
+ * second one is made to its end although there is a newer request. */
+typedef struct { CeldLiveSolver *solver; int asked, middles, n_early, n_last; } Chain;
+
+static void
+ask_at_the_middle (CeldLiveAnswer *answer, gpointer data)
+{
+  Chain *chain = data;
+
+  if (answer->picture == CELD_LIVE_RELIEF && answer->pixels && answer->frame == CELD_LIVE_MIDDLE)
+    chain->middles++;
+  if (chain->asked < 3 && chain->middles == chain->asked)
+    {
+      chain->asked++;
+      celd_live_solver_ask (chain->solver, relief_request ());
+    }
+  chain->n_early += answer->last && chain->middles < 3;
+  chain->n_last += answer->last;
+}
+
+static void
+only_the_newest_request_has_a_last_answer (void)
+{
+  Chain  chain = { .asked = 1 };
+  gint64 until = g_get_monotonic_time () + PATIENCE;
+
+  chain.solver = celd_live_solver_new (ask_at_the_middle, &chain);
+  celd_live_solver_ask (chain.solver, relief_request ());
+  while (!chain.n_last && g_get_monotonic_time () < until)
+    g_main_context_iteration (NULL, TRUE);
+  CHECK (chain.n_last && !chain.n_early);
+  celd_live_solver_free (chain.solver);
 }
 
 /* ------------------------------------------------------------------ the end */
@@ -406,6 +447,7 @@ main (void)
   RUN (problems_have_places);
   RUN (buffers_have_the_format_that_is_wanted);
   RUN (the_relief_comes_in_all_positions);
+  RUN (only_the_newest_request_has_a_last_answer);
   RUN (it_can_be_stopped_at_any_time);
   drop_page ();
   gegl_exit ();
