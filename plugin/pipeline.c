@@ -215,10 +215,11 @@ set_settings (CeldPipeline *p, const CeldSettings *settings)
   return celd_session_set_settings (p->session, &p->settings);
 }
 
-/* How a drawing is read depends on the settings. */
+/* How a drawing is read depends on the settings.  What a note says is of views or a mesh of the old state. */
 gboolean
 celd_pipeline_update (CeldPipeline *p, const CeldPipelineInput *input, guint layers, GError **error)
 {
+  g_clear_pointer (&p->note, g_free);
   if (input->settings.ink != p->settings.ink)
     layers |= 1u << CELD_LAYER_DRAWING;
   if (input->settings.flats != p->settings.flats) /* with flats neither is checked */

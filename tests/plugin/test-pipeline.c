@@ -395,6 +395,28 @@ problems_are_told (void)
   celd_pipeline_free (pipeline);
 }
 
+/* What strains the eyes is no problem of what is made after an update without views. */
+static void
+notes_on_views_end_with_the_next_update (void)
+{
+  CeldPipelineInput input = page_input ();
+  CeldPipeline     *pipeline;
+  char             *text;
+
+  input.settings.disparity = 0.1f;
+  pipeline = celd_pipeline_new (&input, NULL);
+  CHECK (celd_pipeline_view (pipeline, NULL, NULL, NULL));
+  text = celd_pipeline_problems (pipeline);
+  CHECK (text != NULL);
+  g_free (text);
+  CHECK (celd_pipeline_update (pipeline, &input, 0, NULL));
+  CHECK (celd_pipeline_make (pipeline, BIT (DEPTH), NULL, NULL, NULL));
+  text = celd_pipeline_problems (pipeline);
+  CHECK (text == NULL);
+  g_free (text);
+  celd_pipeline_free (pipeline);
+}
+
 static gboolean
 warns_of_lines (CeldPipeline *pipeline)
 {
@@ -461,6 +483,7 @@ main (void)
   RUN (only_numbers_are_paint);
   RUN (only_numbers_are_depth);
   RUN (problems_are_told);
+  RUN (notes_on_views_end_with_the_next_update);
   RUN (unclear_lines_are_told);
   drop_page ();
   celd_palette_clear (&palette);
