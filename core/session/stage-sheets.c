@@ -56,14 +56,16 @@ celd_make_sheets (CeldSession *s, const CeldHost *host)
 
       status = celd_sheets_update (celd_session_depth_ink (s), &s->ownership, hints.data ? &hints : NULL, changed,
                                    &s->order, background_label (s), &s->settings, host, &s->sheets);
+    }
+  if (status == CELD_OK)
+    {
       celd_free (s->sheet_hints.data);
       s->sheet_hints    = hints;
       s->changed_sheets = (CeldRect) { 0 };
       hints             = (CeldLabels) { 0 };
       celd_problems_clear (&s->problems[STAGE_SHEETS]);
+      status = celd_sheet_problems (s->sheets, &s->problems[STAGE_SHEETS]);
     }
-  if (status == CELD_OK)
-    status = celd_sheet_problems (s->sheets, &s->problems[STAGE_SHEETS]);
   celd_free (hints.data);
   return status;
 }

@@ -153,8 +153,6 @@ diffuse (SheetsWork *w, size_t k, const CeldSheetView *view, double *area)
       shape->n_wishes  = old->n_wishes;
       shape->standing  = old->standing;
       shape->kept      = true;
-      old->diffusion   = (CeldDiffusion) { 0 };
-      old->wish        = NULL;
       return CELD_OK;
     }
   status = celd_diffusion_new (view, NULL, &shape->diffusion);
@@ -242,7 +240,7 @@ find_pixels (SheetsWork *w, size_t k, CeldSheet *sheet)
   if (!old || old->front != shape->front || w->old->margin < margin || w->old->margin > margin)
     return celd_sheet_pixels (&view, &shape->diffusion, w->rank, (double) margin * w->own->owner.width, sheet);
   *sheet = w->old->item[w->old->of_label[k]];
-  w->old->item[w->old->of_label[k]] = (CeldSheet) { 0 };
+  shape->kept_pixels = true;
   return CELD_OK;
 }
 
@@ -382,6 +380,28 @@ celd_sheets (const CeldPlane *ink, const CeldOwnership *own, const CeldLabels *h
   return status;
 }
 
+static void
+let_go (CeldSheetShape *shape)
+{
+  shape->diffusion = (CeldDiffusion) { 0 };
+  shape->wish      = NULL;
+}
+
+/* What was taken over belongs to the new sheets if they were made, and otherwise still to the old ones. */
+static void
+settle (SheetsWork *w, bool made)
+{
+  for (size_t k = 0; w->shape && k < w->n; k++)
+    {
+      CeldSheetShape *shape = &w->shape[k];
+
+      if (shape->kept)
+        let_go (made ? &w->old->shape[k] : shape);
+      if (shape->kept_pixels)
+        *(made ? &w->old->item[w->old->of_label[k]] : &shape->sheet) = (CeldSheet) { 0 };
+    }
+}
+
 CeldStatus
 celd_sheets_update (const CeldPlane *ink, const CeldOwnership *own, const CeldLabels *hints, CeldRect changed,
                     const CeldOrder *order, uint32_t background, const CeldSettings *settings, const CeldHost *host,
@@ -395,13 +415,16 @@ celd_sheets_update (const CeldPlane *ink, const CeldOwnership *own, const CeldLa
   if (*sheets && (*sheets)->width == ink->width && (*sheets)->height == ink->height)
     w.old = *sheets;
   status = make_sheets (&w, order, host, &made);
+  settle (&w, status == CELD_OK);
+  if (status != CELD_OK)
+    {
+      shapes_free (w.shape, w.n);
+      return status;
+    }
+  made->shape = w.shape;
   celd_sheets_free (*sheets);
   *sheets = made;
-  if (status == CELD_OK)
-    made->shape = w.shape;
-  else
-    shapes_free (w.shape, w.n);
-  return status;
+  return CELD_OK;
 }
 
 void

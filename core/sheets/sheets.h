@@ -75,7 +75,7 @@ typedef struct
   size_t        n_wishes;
   CeldSheet     sheet;           /* while it is made */
   CeldStatus    status;
-  bool          kept;            /* taken over from what is updated */
+  bool          kept, kept_pixels; /* are the diffusion and the wishes, and the pixels, those of what is updated? */
 } CeldSheetShape;
 
 struct CeldSheets
@@ -95,7 +95,7 @@ struct CeldSheets
 /* ------------------------------------------------------------------ sheets.c */
 
 /* Replaces *sheets (NULL: none yet), which an earlier update made, by those of a new state, of which the ownership
- * and the hints differ only within `changed`, and the ink not at all.  After a failure *sheets is NULL. */
+ * and the hints differ only within `changed`, and the ink not at all. */
 CeldStatus celd_sheets_update (const CeldPlane *ink, const CeldOwnership *own, const CeldLabels *hints,
                                CeldRect changed, const CeldOrder *order, uint32_t background,
                                const CeldSettings *settings, const CeldHost *host, CeldSheets **sheets);

@@ -358,6 +358,23 @@ sheets_of_any_picture (void)
 }
 
 static void
+check_same (const CeldSheets *one, const CeldSheets *other)
+{
+  CHECK (one->n == other->n);
+  for (size_t k = 0; k < one->n && k < other->n; k++)
+    {
+      const CeldSheet *a = &one->item[k], *b = &other->item[k];
+
+      CHECK (a->label == b->label && a->level == b->level && a->page == b->page);
+      CHECK (a->n_hidden == b->n_hidden && a->n_runs == b->n_runs);
+      if (a->n_hidden)
+        CHECK (!memcmp (a->coverage, b->coverage, a->n_hidden) && !memcmp (a->confidence, b->confidence, a->n_hidden));
+      for (size_t i = 0; i < a->n_runs; i++)
+        CHECK (a->run[i].x == b->run[i].x && a->run[i].y == b->run[i].y && a->run[i].n == b->run[i].n);
+    }
+}
+
+static void
 threads_make_no_difference (void)
 {
   uint32_t state = 6;
@@ -371,19 +388,56 @@ threads_make_no_difference (void)
       random_scene (&state, 40, &s);
       one = sheets_of (&s, NULL);
       other = sheets_of (&s, &backwards);
-      CHECK (one->n == other->n);
-      for (size_t k = 0; k < one->n; k++)
-        {
-          const CeldSheet *a = &one->item[k], *b = &other->item[k];
-
-          CHECK (a->label == b->label && a->n_hidden == b->n_hidden && a->n_runs == b->n_runs);
-          if (a->n_hidden)
-            CHECK (!memcmp (a->coverage, b->coverage, a->n_hidden) && !memcmp (a->confidence, b->confidence, a->n_hidden));
-          for (size_t i = 0; i < a->n_runs; i++)
-            CHECK (a->run[i].x == b->run[i].x && a->run[i].y == b->run[i].y && a->run[i].n == b->run[i].n);
-        }
+      check_same (one, other);
       celd_sheets_free (one);
       celd_sheets_free (other);
+      close_scene (&s);
+    }
+}
+
+/* Replaces the sheets by those of the scene, which differs from theirs within `changed`. */
+static CeldStatus
+update (const Scene *s, CeldRect changed, const CeldHost *host, CeldSheets **sheets)
+{
+  return celd_sheets_update (&s->ink, &s->own, NULL, changed, &s->order, s->background, &s->settings, host, sheets);
+}
+
+/* Whatever was taken over before it was cancelled. */
+static void
+an_update_that_fails_leaves_the_old_sheets (void)
+{
+  uint32_t state = 7;
+
+  for (int round = 0; round < 60; round++)
+    {
+      Scene       s;
+      CeldSheets *sheets = NULL, *was, *before, *after;
+      CeldStatus  status = CELD_CANCELLED;
+      double      x, y;
+
+      random_scene (&state, 40, &s);
+      x = check_random (&state, (uint32_t) s.ink.width);
+      y = check_random (&state, (uint32_t) s.ink.height);
+      CHECK (update (&s, (CeldRect) { 0 }, NULL, &sheets) == CELD_OK);
+      before = sheets_of (&s, NULL);
+      paint (&s, 1 + check_random (&state, (uint32_t) s.order.n), x, y, x + 2, y + 2, false);
+      was = sheets;
+      for (int reports = 0; status != CELD_OK && reports < 9; reports++)
+        {
+          int      left = reports;
+          CeldHost host = { .progress = check_count_down, .data = &left };
+
+          status = update (&s, (CeldRect) { (int) x - 1, (int) y - 1, 4, 4 }, &host, &sheets);
+          CHECK (status == CELD_OK || (status == CELD_CANCELLED && sheets == was));
+          if (status != CELD_OK && sheets)
+            check_same (sheets, before);
+        }
+      CHECK (status == CELD_OK);
+      after = sheets_of (&s, NULL);
+      check_same (sheets, after);
+      celd_sheets_free (before);
+      celd_sheets_free (after);
+      celd_sheets_free (sheets);
       close_scene (&s);
     }
 }
@@ -497,6 +551,7 @@ main (void)
 {
   RUN (sheets_of_any_picture);
   RUN (threads_make_no_difference);
+  RUN (an_update_that_fails_leaves_the_old_sheets);
   RUN (one_label_hides_nothing);
   RUN (many_regions_of_one_pixel);
   RUN (coverage_may_be_no_number);
