@@ -135,6 +135,17 @@ check_count_down (void *host, double done)
   return (*left)-- > 0;
 }
 
+/* Progress that never decreases; the double `host` is that of the last report. */
+static inline bool
+check_rising (void *host, double done)
+{
+  double *last = host;
+
+  CHECK (done >= *last && done <= 1);
+  *last = done;
+  return true;
+}
+
 /* Jobs in another order. */
 static inline void
 check_backwards (void *host, int n, void (*body) (void *data, int i), void *data)

@@ -166,29 +166,24 @@ celd_mesh_fill_squares (CeldMeshBuilder *m, const CeldHost *host)
 
 /* ------------------------------------------------------------------ */
 
-/* Finds the least error for which there are not too many vertices. */
+/* A mesh with the squares that it is made of, and its number of vertices. */
+typedef struct { CeldMeshBuilder *builder; CeldQuadtree *quadtree; size_t n; } SquareMesh;
+
+/* Finds the squares for an error, and marks their vertices. */
 static CeldStatus
-choose_squares (CeldMeshBuilder *m, const CeldSettings *settings, const CeldHost *host, CeldQuadtree *quadtree,
-                size_t *n)
+find_squares (void *data, double error, const CeldHost *host, size_t *n)
 {
-  double       error = (double) settings->mesh_error;
+  SquareMesh  *mesh = data;
   CeldHostPart part[2];
-  CeldHost     first = celd_host_part (&part[0], host, 0, 1), others = celd_host_part (&part[1], host, 1, 1);
+  CeldHost     merging = celd_host_part (&part[0], host, 0, 0.9), marking = celd_host_part (&part[1], host, 0.9, 1);
   CeldStatus   status;
 
-  for (;;)
-    {
-      status = celd_quadtree_new (m->points, m->relief, error / 2, quadtree->width ? &others : &first, quadtree);
-      if (status == CELD_OK)
-        status = celd_mesh_mark_points (m, &others, n);
-      if (status != CELD_OK || (double) *n <= (double) settings->most_vertices)
-        break;
-      if (error > CELD_MESH_MAX_RATIO * (double) settings->mesh_error)
-        return CELD_BAD_VALUE;
-      error *= CELD_MESH_ERROR_GROWTH;
-      celd_quadtree_clear (quadtree);
-    }
-  m->mesh.error = error;
+  celd_quadtree_clear (mesh->quadtree);
+  status = celd_quadtree_new (mesh->builder->points, mesh->builder->relief, error / 2, &merging, mesh->quadtree);
+  if (status == CELD_OK)
+    status = celd_mesh_mark_points (mesh->builder, &marking, &mesh->n);
+  mesh->builder->mesh.error = error;
+  *n = mesh->n;
   return status;
 }
 
@@ -224,13 +219,13 @@ find_bottom (const CeldMeshPoints *c, double thickness)
 static CeldStatus
 make_mesh (CeldMeshBuilder *m, const CeldSettings *settings, const CeldHost *host, CeldQuadtree *quadtree)
 {
-  size_t       n = 0;
+  SquareMesh   mesh = { m, quadtree, 0 };
   CeldHostPart part[2];
   CeldHost     choosing = celd_host_part (&part[0], host, 0, 0.7), filling = celd_host_part (&part[1], host, 0.7, 1);
-  CeldStatus   status = choose_squares (m, settings, &choosing, quadtree, &n);
+  CeldStatus   status = celd_mesh_least_error (settings, &choosing, find_squares, &mesh);
 
   if (status == CELD_OK)
-    status = mesh_new (m, n);
+    status = mesh_new (m, mesh.n);
   if (status != CELD_OK)
     return status;
   celd_mesh_make_vertices (m);

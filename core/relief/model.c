@@ -39,11 +39,23 @@ clear_meshes (CeldModel *model)
   model->n = 0;
 }
 
+/* What the meshes of a model are made of, and the model. */
+typedef struct
+{
+  const CeldParts      *parts;
+  const CeldAtlasPlace *place;
+  const CeldSettings   *settings;
+  CeldModel            *model;
+} ModelWork;
+
 /* Makes all meshes with one error; *n is the number of vertices. */
 static CeldStatus
-make_meshes (const CeldParts *parts, const CeldAtlasPlace *place, double error, const CeldSettings *settings,
-             const CeldHost *host, CeldModel *model, size_t *n)
+make_meshes (void *data, double error, const CeldHost *host, size_t *n)
 {
+  const ModelWork    *w = data;
+  const CeldParts    *parts = w->parts;
+  const CeldSettings *settings = w->settings;
+  CeldModel          *model = w->model;
   double     scale = (double) settings->mesh_size / (parts->width > parts->height ? parts->width : parts->height);
   double     thickness = (double) settings->mesh_plate / scale, bottom = find_bottom (parts, thickness);
   CeldStatus status = CELD_OK;
@@ -58,32 +70,13 @@ make_meshes (const CeldParts *parts, const CeldAtlasPlace *place, double error, 
       CeldHost       turn = celd_host_part (&share, host, 0, 0);
 
       *part  = (CeldModelPart) { .label = parts->sheets->item[k].label, .page = parts->item[k].page };
-      status = celd_part_mesh (parts, k, &place[k], error, back_of (parts, k, bottom, thickness), settings, &turn,
+      status = celd_part_mesh (parts, k, &w->place[k], error, back_of (parts, k, bottom, thickness), settings, &turn,
                                &part->mesh);
       *n += part->mesh.vertices;
       if (part->mesh.triangles)
         model->n++;
       else
         celd_relief_mesh_clear (&part->mesh);
-    }
-  return status;
-}
-
-/* Finds the least error for which there are not too many vertices. */
-static CeldStatus
-choose_meshes (const CeldParts *parts, const CeldAtlasPlace *place, const CeldSettings *settings,
-               const CeldHost *host, CeldModel *model)
-{
-  double     error = (double) settings->mesh_error;
-  size_t     n = 0;
-  CeldStatus status = make_meshes (parts, place, error, settings, host, model, &n);
-
-  while (status == CELD_OK && (double) n > (double) settings->most_vertices)
-    {
-      error *= CELD_MESH_ERROR_GROWTH;
-      if (error > CELD_MESH_MAX_RATIO * (double) settings->mesh_error)
-        return CELD_BAD_VALUE;
-      status = make_meshes (parts, place, error, settings, host, model, &n);
     }
   return status;
 }
@@ -113,7 +106,8 @@ celd_model (const CeldSheets *sheets, const CeldOwnership *own, const CeldLayers
   if (status == CELD_OK)
     status = celd_atlas_pack (&parts, place);
   if (status == CELD_OK)
-    status = choose_meshes (&parts, place, settings, &meshing, &made);
+    status = celd_mesh_least_error (settings, &meshing, make_meshes,
+                                    &(ModelWork) { &parts, place, settings, &made });
   if (status == CELD_OK)
     status = celd_atlas_paint (&parts, place, layers, &painting, &made.atlas);
   if (status == CELD_OK)

@@ -5,6 +5,7 @@
  *   order.c         shifts of pixels
  *   relief.c        celd_relief: inflation, and the step
  *   mesh-surface.c  points of the surface at the corners of pixels, and the squares that are flat enough
+ *   mesh-error.c    the least error for which there are not too many vertices
  *   mesh-builder.c  vertices, triangles, walls and normals
  *   mesh.c          celd_relief_mesh
  *
@@ -128,12 +129,16 @@ void       celd_quadtree_clear (CeldQuadtree *quadtree);            /* accepts a
 /* Is the square of 2^k pixels in column x and row y of such squares a leaf? */
 bool       celd_quadtree_is_leaf (const CeldQuadtree *quadtree, int k, int x, int y);
 
-/* ------------------------------------------------------------------ mesh.c, mesh-builder.c */
+/* ------------------------------------------------------------------ mesh-error.c */
 
-/* The error of a mesh grows by this factor while there are too many vertices, up to that ratio to the requested one;
- * chosen. */
-#define CELD_MESH_ERROR_GROWTH 1.5
-#define CELD_MESH_MAX_RATIO    1e4
+/* Makes a mesh, or several, by `attempt`, which counts the vertices: first with the error of the settings, then with
+ * larger ones until there are not too many.  CELD_BAD_VALUE if there always are.  How many attempts there will be is not
+ * known, so only the first one reports progress; all can be cancelled. */
+CeldStatus celd_mesh_least_error (const CeldSettings *settings, const CeldHost *host,
+                                  CeldStatus (*attempt) (void *data, double error, const CeldHost *host, size_t *n),
+                                  void *data);
+
+/* ------------------------------------------------------------------ mesh.c, mesh-builder.c */
 
 /* A mesh under construction. */
 typedef struct
