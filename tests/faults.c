@@ -8,6 +8,7 @@
  */
 #include "check.h"
 #include "faults.h"
+#include "sheets/sheets.h"
 
 /* ------------------------------------------------------------------ memory that fails */
 
@@ -244,6 +245,19 @@ set_apart (CeldSession *s)
   return celd_session_set_settings (s, &settings);
 }
 
+/* Adds heights of a relief, which takes levels and depth, to those of depth before. */
+static CeldStatus
+add_relief (CeldSession *s, const CeldHost *host, Pixels *out)
+{
+  CeldRelief relief = { 0 };
+  CeldStatus status = celd_session_relief (s, host, &relief);
+
+  for (int p = 0; !status && p < W * H; p++)
+    out->plane[p] += relief.z[p];
+  celd_relief_clear (&relief);
+  return status;
+}
+
 /* The i-th call of a session; false after the last one. */
 static bool
 call_session (CeldSession *s, int i, const CeldHost *host, Pixels *out, CeldStatus *status)
@@ -255,6 +269,7 @@ call_session (CeldSession *s, int i, const CeldHost *host, Pixels *out, CeldStat
   CeldPlane   plane = { 0 };
   CeldVectors vectors = { 0 };
   CeldRect    changed;
+  const CeldSheets *sheets = NULL;
 
   switch (i)
     {
@@ -284,6 +299,10 @@ call_session (CeldSession *s, int i, const CeldHost *host, Pixels *out, CeldStat
     case 23: *status = celd_session_put_relation (s, 8, "10,30 > 50,35", NULL); break;
     case 24: *status = celd_session_exact (s, host, &plane, &changed); break;
     case 25: *status = celd_session_exact_preview (s, host, &plane); break;
+    case 26: *status = celd_session_sheets (s, host, &sheets); break;
+    case 27: *status = put_stroke (s); break;
+    case 28: *status = celd_session_sheets (s, host, &sheets); break;
+    case 29: *status = add_relief (s, host, out); break;
     default: return false;
     }
   if (!*status && i == 24)
@@ -294,6 +313,8 @@ call_session (CeldSession *s, int i, const CeldHost *host, Pixels *out, CeldStat
     memcpy (out->plane, plane.data, sizeof out->plane);
   if (!*status && i == 11)
     memcpy (out->alpha, plane.data, sizeof out->alpha);
+  for (size_t k = 0; !*status && sheets && k < sheets->n; k++)
+    out->labels[k] = 31 * out->labels[k] + (uint32_t) sheets->item[k].n_hidden;
   for (int p = 0; !*status && labels.data && p < W * H; p++)
     out->labels[p] = 31 * out->labels[p] + labels.data[p];
   return true;

@@ -256,18 +256,19 @@ celd_session_puppet (CeldSession *s, const CeldColours *art, const CeldHost *hos
 CeldStatus
 celd_session_relief (CeldSession *s, const CeldHost *host, CeldRelief *relief)
 {
-  CeldHostPart part[2];
-  CeldHost     first = celd_host_part (&part[0], host, 0, 0.6), second = celd_host_part (&part[1], host, 0.6, 1);
+  CeldHostPart part[3];
+  CeldHost     ordering = celd_host_part (&part[0], host, 0, 0.5), smoothing = celd_host_part (&part[1], host, 0.5, 0.6);
+  CeldHost     making = celd_host_part (&part[2], host, 0.6, 1);
   CeldPlane    levels, depth, drawn = { 0 };
-  CeldStatus   status = celd_session_levels (s, &first, &levels, NULL);
+  CeldStatus   status = celd_session_levels (s, &ordering, &levels, NULL);
   const CeldPlane *borders = NULL;
 
   if (status == CELD_OK)
-    status = celd_session_depth (s, &first, &depth, NULL);
+    status = celd_session_depth (s, &smoothing, &depth, NULL);
   if (status == CELD_OK)
     status = celd_session_borders (s, &drawn, &borders);
   if (status == CELD_OK)
-    status = celd_relief (celd_session_split_ink (s), borders, &levels, &depth, &s->settings, &second, relief);
+    status = celd_relief (celd_session_split_ink (s), borders, &levels, &depth, &s->settings, &making, relief);
   celd_free (drawn.data);
   return status;
 }
@@ -315,17 +316,21 @@ celd_session_exact (CeldSession *session, const CeldHost *host, CeldPlane *depth
 CeldStatus
 celd_session_exact_preview (CeldSession *session, const CeldHost *host, CeldPlane *half)
 {
-  CeldHostPart part[2];
-  CeldHost     making = celd_host_part (&part[0], host, 0, 0.2), solving = celd_host_part (&part[1], host, 0.2, 1);
-  CeldStatus   status;
+  static const CeldStage before[] = { STAGE_RELATIONS, STAGE_INK, STAGE_SEEDS };
+  const int              n = sizeof before / sizeof *before;
+  CeldHostPart           share;
+  CeldHost               solving = celd_host_part (&share, host, 0.2, 1);
+  CeldStatus             status = CELD_OK;
 
   if (!session->drawing.luma.data)
     return CELD_BAD_SIZE;
-  status = celd_session_make (session, STAGE_RELATIONS, NULL);
-  if (status == CELD_OK)
-    status = celd_session_make (session, STAGE_INK, &making);
-  if (status == CELD_OK)
-    status = celd_session_make (session, STAGE_SEEDS, NULL);
+  for (int i = 0; i < n && status == CELD_OK; i++)
+    {
+      CeldHostPart part;
+      CeldHost     making = celd_host_part (&part, host, 0.2 * i / n, 0.2 * (i + 1) / n);
+
+      status = celd_session_make (session, before[i], &making);
+    }
   if (status == CELD_OK)
     status = celd_make_exact_preview (session, &solving);
   if (status == CELD_OK)

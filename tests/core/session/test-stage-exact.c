@@ -319,6 +319,26 @@ the_preview_is_close_to_depth (void)
   celd_session_free (s);
 }
 
+/* Reading a painted layer, which may take as long as what follows, can be cancelled, too. */
+static void
+the_preview_can_be_cancelled_while_scribbles_are_read (void)
+{
+  CeldSession *s = scene (true);
+  uint8_t      paint[4 * W * H] = { 0 };
+  CeldPaint    scribbles = { W, H, W, paint };
+  CeldHost     refuse = { .progress = check_refuse };
+  CeldPlane    ink, half;
+
+  for (int i = 0; i < 12; i++)
+    memcpy (paint + 4 * (20 * W + 40 + i), (const uint8_t[4]) { 255, 255, 0, 255 }, 4);
+  CHECK (celd_session_set_scribbles (s, &scribbles) == CELD_OK);
+  CHECK (celd_session_ink (s, NULL, &ink, NULL) == CELD_OK);
+  CHECK (celd_session_exact_preview (s, &refuse, &half) == CELD_CANCELLED);
+  CHECK (!s->valid[STAGE_SCRIBBLES]);
+  CHECK (celd_session_exact_preview (s, NULL, &half) == CELD_OK);
+  celd_session_free (s);
+}
+
 int
 main (void)
 {
@@ -332,5 +352,6 @@ main (void)
   RUN (gaps_hold_depth);
   RUN (contradictions_are_reported);
   RUN (the_preview_is_close_to_depth);
+  RUN (the_preview_can_be_cancelled_while_scribbles_are_read);
   return DONE;
 }
