@@ -78,12 +78,12 @@ celd_compose_levels (const CeldLevelArt piece[2], const CeldPlacement *placement
 {
   LevelLayers      l[2] = { 0 };
   CeldComposition *composition = NULL;
-  CeldHostPart     part[4];
-  CeldHost         step[4];
+  CeldHostPart     part[5];
+  CeldHost         step[5];
   CeldStatus       status = CELD_OK;
 
-  for (int i = 0; i < 4; i++)
-    step[i] = celd_host_part (&part[i], host, i / 4.0, (i + 1) / 4.0);
+  for (int i = 0; i < 5; i++)
+    step[i] = celd_host_part (&part[i], host, i / 5.0, (i + 1) / 5.0);
   for (int i = 0; i < 2 && status == CELD_OK; i++)
     status = cut_levels (&piece[i], &step[i], &l[i]);
   if (status == CELD_OK)
@@ -94,7 +94,7 @@ celd_compose_levels (const CeldLevelArt piece[2], const CeldPlacement *placement
     for (int x = 0; x < levels->width && composition->levels > 1; x++)
       CELD_AT (levels, x, y) /= (float) (composition->levels - 1);
   if (status == CELD_OK && picture)
-    status = celd_composition_flatten (composition, levels ? NULL : &step[3], picture);
+    status = celd_composition_flatten (composition, &step[4], picture);
   celd_composition_free (composition);
   level_layers_clear (&l[0]);
   level_layers_clear (&l[1]);

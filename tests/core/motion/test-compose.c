@@ -459,6 +459,31 @@ levels_are_those_of_what_is_seen (void)
   drawn_clear (&front);
 }
 
+/* Of two drawings with levels, each of the steps can be cancelled. */
+static void
+picture_and_levels_both_report_progress (void)
+{
+  enum { SIDE = 24, N = SIDE * SIDE };
+  static float  art[4 * N], ink[N], depth[N], made[N], wanted[4 * N];
+  CeldColours   colours = { SIDE, SIDE, SIDE, art }, picture = { SIDE, SIDE, SIDE, wanted };
+  CeldPlane     paper = { SIDE, SIDE, SIDE, ink }, given = { SIDE, SIDE, SIDE, depth }, levels = { SIDE, SIDE, SIDE, made };
+  CeldLevelArt  piece[2] = { { &colours, &paper, &given }, { &colours, &paper, &given } };
+  CeldPlacement placement = { .scale = 1 };
+  double        done = 0;
+  CeldHost      host = { .progress = check_rising, .data = &done };
+
+  for (int i = 0; i < N; i++)
+    {
+      ink[i]   = 1;
+      depth[i] = i % SIDE < SIDE / 2;
+    }
+  CHECK (celd_compose_levels (piece, &placement, 0.5f, &host, &picture, &levels) == CELD_OK);
+  NEAR (done, 1, 1e-9);
+  done = 0;
+  CHECK (celd_compose_levels (piece, &placement, 0.5f, &host, NULL, &levels) == CELD_OK);
+  CHECK (done < 1); /* what is left is for the picture */
+}
+
 int
 main (void)
 {
@@ -472,5 +497,6 @@ main (void)
   RUN (random_layers_make_the_picture);
   RUN (layers_are_whole_behind_other_drawings);
   RUN (levels_are_those_of_what_is_seen);
+  RUN (picture_and_levels_both_report_progress);
   return DONE;
 }
