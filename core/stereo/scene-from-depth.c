@@ -117,12 +117,14 @@ paper_of (const SceneBuilder *m, int x, int direction, float colour[4])
 
 /* ------------------------------------------------------------------ spans */
 
-/* Counts a span, or adds it; returns NULL while spans are counted. */
+/* Counts a span, or adds it; returns NULL while spans are counted.  The product can be rounded up to a step beyond the
+ * last one. */
 static CeldSceneSpan *
 add_span (SceneBuilder *m, int x, int n, double depth, bool filling)
 {
   double above = fmin (fmax (depth, m->scene->least), m->scene->most) - m->scene->least;
-  size_t group = 2 * (size_t) (above * m->steps) + !filling;
+  size_t step = (size_t) (above * m->steps), last = m->scene->n_parts / 2 - 1;
+  size_t group = 2 * (step < last ? step : last) + !filling;
 
   if (!m->spans)
     return celd_scene_spans_add (&m->scene->part[group], x, m->y, n, (uint32_t) group);
