@@ -379,6 +379,8 @@ transpose_scene (const CeldScene *scene, Projection move, const CeldHost *host, 
     {
       Scanline line = scanline_in (scratch, scene);
 
+      (*transposed)->opaque = scene->opaque;
+
       for (uint32_t k = 0; k < groups && status == CELD_OK; k++)
         {
           status = transpose_group (&t, k, &line, host, &(*transposed)->part[k]);

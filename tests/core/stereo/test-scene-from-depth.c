@@ -90,6 +90,38 @@ boxes_move_by_half_the_disparity (void)
   layer_scene_close (&s);
 }
 
+/* Also one from above: pixels are either uncovered or opaque. */
+static void
+views_have_no_seams (void)
+{
+  LayerScene s = draw_board ();
+  uint32_t   seed = 17;
+
+  for (int i = 0; i < W * H; i++)
+    s.depth.data[i] = (float) check_random (&seed, 5) / 4;
+  for (int step = 0; step < 8; step++)
+    {
+      CeldColours view = look_at_depth (&s, (CeldCamera) { cos (step), sin (step), 1 }, 9);
+
+      for (int i = 3; i < 4 * W * H; i += 4)
+        CHECK (view.data[i] == 0 || view.data[i] == 1);
+      free (view.data);
+    }
+  layer_scene_close (&s);
+}
+
+/* A range of depth that is a hair less than four steps is four when it is multiplied by their number. */
+static void
+the_nearest_depth_is_in_the_last_group (void)
+{
+  LayerScene s = layer_scene (8, 3);
+
+  for (int i = 0; i < 24; i++)
+    s.depth.data[i] = i % 8 < 4 ? 0.961538494f : 0x1p-53f;
+  free (look_at_depth (&s, celd_camera_eye (1), 8 * (double) 0.13f).data);
+  layer_scene_close (&s);
+}
+
 /* Depth of all kinds, and noise as art: no view has holes. */
 static void
 views_have_no_holes (void)
@@ -290,6 +322,8 @@ main (void)
 {
   RUN (outlines_leave_no_ghost);
   RUN (boxes_move_by_half_the_disparity);
+  RUN (views_have_no_seams);
+  RUN (the_nearest_depth_is_in_the_last_group);
   RUN (views_have_no_holes);
   RUN (depth_of_any_kind_leaves_no_hole);
   RUN (uncovered_paper_has_its_own_colour);
