@@ -97,11 +97,13 @@ remove_branches (Build *b)
 {
   CeldStrokeGraph *g = &b->graph;
   int             *ends = celd_alloc0 (3 * g->n_nodes + 1, sizeof *ends);
-  int             *left = ends + g->n_nodes; /* lines that stay */
-  int             *real = left + g->n_nodes; /* branches that are not rough */
+  int             *left; /* lines that stay */
+  int             *real; /* branches that are not rough */
 
   if (!ends)
     return CELD_NO_MEMORY;
+  left = ends + g->n_nodes;
+  real = left + g->n_nodes;
   for (size_t k = 0; k < 2 * g->n_lines; k++)
     ends[g->line[k / 2].node[k % 2]]++;
   memcpy (left, ends, g->n_nodes * sizeof *left);

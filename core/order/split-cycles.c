@@ -182,12 +182,14 @@ cut_region (const Work *w, const CeldHost *host, RegionCut *cut)
   CeldRect   box = cut->box;
   size_t     n = box_pixels (cut), p = 0;
   uint32_t   held = cut->steps[0][anchor_pixel (cut, 1)] / HELD_DIVISOR;
-  int32_t   *east = celd_alloc (n, 3 * sizeof *east), *south = east + n, *bound = south + n;
+  int32_t   *east = celd_alloc (n, 3 * sizeof *east), *south, *bound;
   CeldStatus status = CELD_NO_MEMORY;
 
   cut->side = celd_alloc (n, 1);
   if (east && cut->side)
     {
+      south = east + n;
+      bound = south + n;
       for (int y = 0; y < box.height; y++)
         for (int x = 0; x < box.width; x++, p++)
           {
