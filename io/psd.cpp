@@ -22,10 +22,10 @@ public:
   {
     MagickWandGenesis ();
     wand = NewMagickWand ();
-    if (!wand)
-      throw std::bad_alloc ();
-    check (MagickSetFormat (wand, "PSD"));
-    check (MagickSetCompression (wand, RLECompression));
+    if (wand)
+      return;
+    MagickWandTerminus ();
+    throw std::bad_alloc ();
   }
 
   ~Wand ()
@@ -59,6 +59,8 @@ public:
     unsigned char *blob;
     Bytes          bytes;
 
+    check (MagickSetFormat (wand, "PSD"));
+    check (MagickSetCompression (wand, RLECompression));
     MagickResetIterator (wand);
     blob = MagickGetImagesBlob (wand, &size);
     check (blob ? MagickTrue : MagickFalse);
