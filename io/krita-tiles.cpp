@@ -155,13 +155,13 @@ private:
     return rgba;
   }
 
-  // Copies what of a tile lies on the canvas.
+  // Copies what of a tile lies on the canvas; a tile beside it has no pixel that could be pointed to.
   void
   put_tile (const Pixels &tile, int64_t left, int64_t top, Pixels &canvas) const
   {
     const int64_t x = std::clamp<int64_t> (left, 0, width), right = std::clamp<int64_t> (left + side, x, width);
 
-    for (int64_t y = std::max<int64_t> (top, 0); y < std::min<int64_t> (top + side, height); y++)
+    for (int64_t y = std::max<int64_t> (top, 0); x < right && y < std::min<int64_t> (top + side, height); y++)
       std::copy_n (tile.begin () + 4 * ((y - top) * side + x - left), 4 * (right - x),
                    canvas.begin () + 4 * (y * width + x));
   }
