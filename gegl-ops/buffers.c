@@ -134,8 +134,8 @@ celd_buffer_has_numbers (GeglBuffer *buffer)
 
   if (!is_float (gegl_buffer_get_format (buffer)))
     return TRUE;
-  rgba = g_new (float, 4 * (gsize) row.width);
-  for (; finite && row.y < extent->y + extent->height; row.y++)
+  rgba = g_try_new (float, 4 * (gsize) row.width);
+  for (; rgba && finite && row.y < extent->y + extent->height; row.y++)
     {
       get (buffer, &row, "RGBA float", GEGL_ABYSS_NONE, rgba);
       for (const float *p = rgba; p < rgba + 4 * (gsize) row.width; p += 4)

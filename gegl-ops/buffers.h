@@ -27,7 +27,8 @@ CeldStatus celd_buffer_read_drawing (GeglBuffer *buffer, const GeglRectangle *re
 /* Whether more than a hundredth of the buffer is in colour. */
 gboolean celd_buffer_is_coloured (GeglBuffer *buffer);
 
-/* Whether all values are numbers and finite, where alpha is above 0. */
+/* Whether all values are numbers and finite, where alpha is above 0; also if there is no memory to find out, which
+ * whoever reads the buffer is told. */
 gboolean celd_buffer_has_numbers (GeglBuffer *buffer);
 
 /* Normals as they are stored: 0.5 + 0.5 n, x to the right, y up, or down with `directx`.  `stored` has three numbers a
