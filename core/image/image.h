@@ -227,6 +227,14 @@ CeldStatus celd_thick_lines (const CeldMask channel[3], int radius, int faintest
 void celd_draw_fill_edges (const CeldMask channel[3], const CeldMask *strength, const CeldMask *thick, int faintest,
                            CeldMask *step, CeldPlane *luma);
 
+/* ------------------------------------------------------------------ borders between pixels */
+
+/* Headings: 0 to the right, 1 down, 2 to the left, 3 up.  From a corner of pixels, (x,y) being the upper left corner of
+ * pixel (x,y), to the next one; and from it to the pixels that lie ahead on the left and on the right. */
+static const int celd_step_x[4] = { 1, 0, -1, 0 }, celd_step_y[4] = { 0, 1, 0, -1 };
+static const int celd_left_x[4] = { 0, 0, -1, -1 }, celd_left_y[4] = { -1, 0, 0, -1 };
+static const int celd_right_x[4] = { 0, -1, -1, 0 }, celd_right_y[4] = { 0, 0, -1, -1 };
+
 /* ------------------------------------------------------------------ components.c: connected components */
 
 typedef struct

@@ -75,12 +75,6 @@ read_surfaces (Tracer *t)
   return all && paper && r->surface ? CELD_OK : CELD_NO_MEMORY;
 }
 
-/* Headings: 0 to the right, 1 down, 2 to the left, 3 up; and the pixels ahead of a corner on the left and on the right,
- * relative to it. */
-static const int step_x[4] = { 1, 0, -1, 0 }, step_y[4] = { 0, 1, 0, -1 };
-static const int left_x[4] = { 0, 0, -1, -1 }, left_y[4] = { -1, 0, 0, -1 };
-static const int right_x[4] = { 0, -1, -1, 0 }, right_y[4] = { 0, 0, -1, -1 };
-
 static uint32_t *
 surface_of (const CeldRegionOutlines *r, int x, int y)
 {
@@ -164,19 +158,19 @@ follow (Tracer *t, uint32_t label, int x, int y)
 
   do
     {
-      int in_x = at_x + right_x[heading], in_y = at_y + right_y[heading];
-      int out_x = at_x + left_x[heading], out_y = at_y + left_y[heading];
+      int in_x = at_x + celd_right_x[heading], in_y = at_y + celd_right_y[heading];
+      int out_x = at_x + celd_left_x[heading], out_y = at_y + celd_left_y[heading];
 
       last = outline_point (t, label, in_x, in_y, out_x - in_x, out_y - in_y);
       if (celd_append (r->point, r->n_points, r->point_capacity, last) != CELD_OK)
         return CELD_NO_MEMORY;
       if (heading == 0)
         *surface_of (r, in_x, in_y) |= EDGE_FOLLOWED;
-      at_x += step_x[heading];
-      at_y += step_y[heading];
-      if ((*surface_of (r, at_x + left_x[heading], at_y + left_y[heading]) & ~EDGE_FOLLOWED) == label)
+      at_x += celd_step_x[heading];
+      at_y += celd_step_y[heading];
+      if ((*surface_of (r, at_x + celd_left_x[heading], at_y + celd_left_y[heading]) & ~EDGE_FOLLOWED) == label)
         heading = (heading + 3) & 3;
-      else if ((*surface_of (r, at_x + right_x[heading], at_y + right_y[heading]) & ~EDGE_FOLLOWED) != label)
+      else if ((*surface_of (r, at_x + celd_right_x[heading], at_y + celd_right_y[heading]) & ~EDGE_FOLLOWED) != label)
         heading = (heading + 1) & 3;
     }
   while (at_x != x || at_y != y || heading != 0);

@@ -53,12 +53,6 @@ read_flags (EdgeTracer *t)
 
 /* ------------------------------------------------------------------ tracing */
 
-/* Headings: 0 right, 1 down, 2 left, 3 up.  Offsets of the next corner, and of the pixels ahead on the left and on
- * the right. */
-static const int step_x[4] = { 1, 0, -1, 0 }, step_y[4] = { 0, 1, 0, -1 };
-static const int left_x[4] = { 0, 0, -1, -1 }, left_y[4] = { -1, 0, 0, -1 };
-static const int right_x[4] = { 0, -1, -1, 0 }, right_y[4] = { 0, 0, -1, -1 };
-
 static bool
 inside (const CeldPlane *ink, int x, int y)
 {
@@ -87,18 +81,19 @@ follow (EdgeTracer *t, int x, int y)
 
   do
     {
-      int in_x = at_x + right_x[heading], in_y = at_y + right_y[heading];
+      int in_x = at_x + celd_right_x[heading], in_y = at_y + celd_right_y[heading];
+      int out_x = at_x + celd_left_x[heading], out_y = at_y + celd_left_y[heading];
 
       if (celd_append (e->point, e->n_points, e->point_capacity,
-                       subpixel_point (t->ink, in_x, in_y, at_x + left_x[heading], at_y + left_y[heading])) != CELD_OK)
+                       subpixel_point (t->ink, in_x, in_y, out_x, out_y)) != CELD_OK)
         return CELD_NO_MEMORY;
       if (heading == 0)
         *flags_at (t, in_x, in_y) |= FOLLOWED;
-      at_x += step_x[heading];
-      at_y += step_y[heading];
-      if (*flags_at (t, at_x + right_x[heading], at_y + right_y[heading]) & IS_INK)
+      at_x += celd_step_x[heading];
+      at_y += celd_step_y[heading];
+      if (*flags_at (t, at_x + celd_right_x[heading], at_y + celd_right_y[heading]) & IS_INK)
         heading = (heading + 1) & 3;
-      else if (!(*flags_at (t, at_x + left_x[heading], at_y + left_y[heading]) & IS_INK))
+      else if (!(*flags_at (t, at_x + celd_left_x[heading], at_y + celd_left_y[heading]) & IS_INK))
         heading = (heading + 3) & 3;
     }
   while (at_x != x || at_y != y || heading != 0);

@@ -28,9 +28,6 @@ typedef struct
   size_t            capacity, n; /* a power of two */
 } ChainTracer;
 
-/* Headings: 0 right, 1 down, 2 left, 3 up. */
-static const int step_x[4] = { 1, 0, -1, 0 }, step_y[4] = { 0, 1, 0, -1 };
-
 /* ------------------------------------------------------------------ edges found so far */
 
 /* The number, from 1, of the edge that leaves a corner with this heading. */
@@ -171,8 +168,8 @@ follow (ChainTracer *t, CeldCorner corner, int heading, uint32_t left, uint32_t 
           *end = next < 0 ? end_of_chain (t, corner, heading, ink) : CELD_CHAIN_LOOP;
           break;
         }
-      corner.x += step_x[next];
-      corner.y += step_y[next];
+      corner.x += celd_step_x[next];
+      corner.y += celd_step_y[next];
       heading   = next;
       status    = add_edge (t, edge);
       if (status == CELD_OK)
@@ -292,8 +289,8 @@ walk_around (ChainTracer *t, CeldCorner start, int first)
 
           status = trace (t, p.x < q.x ? p.x : q.x, p.y < q.y ? p.y : q.y, p.x == q.x);
         }
-      corner.x += step_x[heading];
-      corner.y += step_y[heading];
+      corner.x += celd_step_x[heading];
+      corner.y += celd_step_y[heading];
       if (label_ahead (t, corner, heading) != label)
         heading = (heading + 3) & 3;
       else if (label_ahead (t, corner, heading + 1) == label)

@@ -36,8 +36,7 @@ typedef struct
 static uint32_t
 part_beside (const PartsJoin *s, CeldBridgePixel p, int side)
 {
-  static const int step_x[4] = { 1, 0, -1, 0 }, step_y[4] = { 0, 1, 0, -1 };
-  int              x = p.x + step_x[side], y = p.y + step_y[side];
+  int x = p.x + celd_step_x[side], y = p.y + celd_step_y[side];
 
   if (x < 0 || y < 0 || x >= s->ink->width || y >= s->ink->height || !celd_is_paper (CELD_AT (s->ink, x, y)))
     return 0;

@@ -93,11 +93,6 @@ mask_at (const LineEndSearch *s, int x, int y)
   return s->mask + (size_t) (y + 1) * s->stride + (size_t) (x + 1);
 }
 
-/* Headings: 0 right, 1 down, 2 left, 3 up.  The pixels ahead of a corner, to the left and to the right: */
-static const int step_x[4] = { 1, 0, -1, 0 }, step_y[4] = { 0, 1, 0, -1 };
-static const int left_x[4] = { 0, 0, -1, -1 }, left_y[4] = { -1, 0, 0, -1 };
-static const int right_x[4] = { 0, -1, -1, 0 }, right_y[4] = { 0, 0, -1, -1 };
-
 /* Follows the outline along the upper edge of pixel (x,y). */
 static CeldStatus
 follow (LineEndSearch *s, int x, int y)
@@ -112,11 +107,11 @@ follow (LineEndSearch *s, int x, int y)
         return CELD_NO_MEMORY;
       if (heading == 0)
         *mask_at (s, at.x, at.y) |= PIXEL_FOLLOWED;
-      at.x += step_x[heading];
-      at.y += step_y[heading];
-      if (*mask_at (s, at.x + left_x[heading], at.y + left_y[heading]))
+      at.x += celd_step_x[heading];
+      at.y += celd_step_y[heading];
+      if (*mask_at (s, at.x + celd_left_x[heading], at.y + celd_left_y[heading]))
         heading = (heading + 3) & 3;
-      else if (!*mask_at (s, at.x + right_x[heading], at.y + right_y[heading]))
+      else if (!*mask_at (s, at.x + celd_right_x[heading], at.y + celd_right_y[heading]))
         heading = (heading + 1) & 3;
     }
   while (at.x != x || at.y != y || heading != 0);

@@ -25,11 +25,6 @@
 
 /* ------------------------------------------------------------------ tracing */
 
-/* Directions: 0 right, 1 down, 2 left, 3 up; offsets from corner (x,y) to the pixels on both sides of a step. */
-static const int step_x[4] = { 1, 0, -1, 0 }, step_y[4] = { 0, 1, 0, -1 };
-static const int right_x[4] = { 0, -1, -1, 0 }, right_y[4] = { 0, 0, -1, -1 };
-static const int left_x[4] = { 0, 0, -1, -1 }, left_y[4] = { -1, 0, 0, -1 };
-
 /* A side of a pixel, from corner (x,y), with the region on its right; hidden: on its left is something that may hide
  * the region, or the frame. */
 typedef struct { int x, y; bool hidden; } Side;
@@ -95,17 +90,17 @@ trace_loop (Outline *o, int x, int y)
   o->n = 0;
   do
     {
-      Side side = { x, y, may_hide (o->view, x + left_x[d], y + left_y[d]) };
+      Side side = { x, y, may_hide (o->view, x + celd_left_x[d], y + celd_left_y[d]) };
 
       if (celd_append (o->side, o->n, o->capacity, side) != CELD_OK)
         return CELD_NO_MEMORY;
       if (d == 0)
         o->mask[(size_t) (y - o->view->seen.y + 1) * o->stride + (size_t) (x - o->view->seen.x + 1)] |= TRACED;
-      x += step_x[d];
-      y += step_y[d];
-      if (!is_own (o, x + right_x[d], y + right_y[d]))
+      x += celd_step_x[d];
+      y += celd_step_y[d];
+      if (!is_own (o, x + celd_right_x[d], y + celd_right_y[d]))
         d = (d + 1) % 4;
-      else if (is_own (o, x + left_x[d], y + left_y[d]))
+      else if (is_own (o, x + celd_left_x[d], y + celd_left_y[d]))
         d = (d + 3) % 4;
     }
   while (x != from_x || y != from_y || d != 0);
