@@ -79,19 +79,6 @@ fragment_fits (const CeldFragment *fragment)
   return !fragment->palette || fragment->palette->n <= fragment->order->n;
 }
 
-/* The pixels of the composition that depend on a layer, its strokes on a page that is left out included. */
-static CeldRect
-box_of_layer (const CeldPlacedFragment *placed, size_t layer, const CeldComposition *c)
-{
-  CeldRect box = placed->layers->item[layer].box;
-  int      w = placed->layers->width;
-
-  for (size_t p = 0; placed->strokes.component.data && p < (size_t) w * (size_t) placed->layers->height; p++)
-    if (celd_page_strokes_at (&placed->strokes, p) == layer + 1)
-      box = celd_box_with (box, (int) (p % (size_t) w), (int) (p / (size_t) w));
-  return celd_similarity_box (&placed->there, placed->reach, box, c->width, c->height);
-}
-
 /* Finds the strokes on a page that is left out: what hangs on parts comes with them. */
 static CeldStatus
 find_strokes (const CeldFragment *fragment, CeldPlacedFragment *placed)
@@ -106,12 +93,34 @@ find_strokes (const CeldFragment *fragment, CeldPlacedFragment *placed)
   return CELD_OK;
 }
 
+/* Replaces the boxes that layers from item `first` on have in their drawing by the pixels of the composition that depend
+ * on these layers, their strokes on a page that is left out included. */
+static void
+place_boxes (const CeldPlacedFragment *placed, size_t first, CeldComposition *c)
+{
+  const CeldLabels *stroke = &placed->strokes.component;
+  size_t            p = 0;
+
+  for (int y = 0; stroke->data && y < stroke->height; y++)
+    for (int x = 0; x < stroke->width; x++, p++)
+      {
+        uint32_t layer = celd_page_strokes_at (&placed->strokes, p);
+        CeldRect *box = layer ? &c->item[placed->item[layer - 1]].box : NULL;
+
+        if (box)
+          *box = celd_rect_union (*box, (CeldRect) { x, y, 1, 1 });
+      }
+  for (size_t i = first; i < c->n_items; i++)
+    c->item[i].box = celd_similarity_box (&placed->there, placed->reach, c->item[i].box, c->width, c->height);
+}
+
 static CeldStatus
 place_fragment (const CeldFragment *fragment, size_t f, CeldComposition *c)
 {
   CeldPlacedFragment *placed = &c->fragment[f];
   const CeldLayers   *layers = fragment->layers;
   double              scale = fragment->placement.scale;
+  size_t              first = c->n_items;
   CeldStatus          status = celd_placement_read (&fragment->placement, layers->width, layers->height,
                                                     &placed->there, &placed->back);
 
@@ -132,9 +141,10 @@ place_fragment (const CeldFragment *fragment, size_t f, CeldComposition *c)
       {
         placed->item[k] = (uint32_t) c->n_items;
         c->item[c->n_items++] = (CeldComposedLayer) {
-          .fragment = f, .layer = k, .label = layers->item[k].label,
-          .box = box_of_layer (placed, k, c) };
+          .fragment = f, .layer = k, .label = layers->item[k].label, .box = layers->item[k].box };
       }
+  if (status == CELD_OK)
+    place_boxes (placed, first, c);
   return status;
 }
 
