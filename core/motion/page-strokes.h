@@ -30,15 +30,4 @@ celd_page_strokes_at (const CeldPageStrokes *strokes, size_t pixel)
   return stroke ? strokes->layer[stroke - 1] : 0;
 }
 
-/* Extends a box by a pixel. */
-static inline CeldRect
-celd_box_with (CeldRect box, int x, int y)
-{
-  int left = box.x < x ? box.x : x, top = box.y < y ? box.y : y;
-  int right = box.x + box.width > x + 1 ? box.x + box.width : x + 1;
-  int bottom = box.y + box.height > y + 1 ? box.y + box.height : y + 1;
-
-  return box.width ? (CeldRect) { left, top, right - left, bottom - top } : (CeldRect) { x, y, 1, 1 };
-}
-
 #endif

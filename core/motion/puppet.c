@@ -89,7 +89,7 @@ take_strokes (const CeldPageStrokes *strokes, CeldPuppet *puppet)
 
         if (to)
           {
-            puppet->layer[to - 1].box = celd_box_with (puppet->layer[to - 1].box, x, y);
+            puppet->layer[to - 1].box = celd_rect_union (puppet->layer[to - 1].box, (CeldRect) { x, y, 1, 1 });
             puppet->front[p] = to - 1;
           }
       }

@@ -276,21 +276,6 @@ sort_pixels (const CeldBridges *bridges)
   return pixel;
 }
 
-static void
-add_to_rect (CeldRect *rect, CeldBridgePixel p)
-{
-  int left = p.x, top = p.y, right = p.x + 1, bottom = p.y + 1;
-
-  if (rect->width)
-    {
-      left   = left < rect->x ? left : rect->x;
-      top    = top < rect->y ? top : rect->y;
-      right  = right > rect->x + rect->width ? right : rect->x + rect->width;
-      bottom = bottom > rect->y + rect->height ? bottom : rect->y + rect->height;
-    }
-  *rect = (CeldRect) { left, top, right - left, bottom - top };
-}
-
 CeldStatus
 celd_bridges_compare (const CeldBridges *old, const CeldBridges *new, CeldRect *changed)
 {
@@ -299,10 +284,11 @@ celd_bridges_compare (const CeldBridges *old, const CeldBridges *new, CeldRect *
 
   for (size_t i = 0, j = 0; enough && (i < old->n_pixels || j < new->n_pixels);)
     {
-      int order = i == old->n_pixels ? 1 : j == new->n_pixels ? -1 : compare_pixels (&a[i], &b[j]);
+      int                    order = i == old->n_pixels ? 1 : j == new->n_pixels ? -1 : compare_pixels (&a[i], &b[j]);
+      const CeldBridgePixel *p = order < 0 ? &a[i] : &b[j];
 
       if (order)
-        add_to_rect (changed, order < 0 ? a[i] : b[j]);
+        *changed = celd_rect_union (*changed, (CeldRect) { p->x, p->y, 1, 1 });
       i += order <= 0;
       j += order >= 0;
     }

@@ -67,17 +67,7 @@ celd_labelling_invalidate (CeldLabelling *labelling, const CeldBasins *basins)
 static void
 add_changed (CeldLabelling *labelling, int y, int left, int right)
 {
-  CeldRect *rect = &labelling->changed;
-  int       top = y, bottom = y + 1;
-
-  if (rect->width)
-    {
-      left   = left < rect->x ? left : rect->x;
-      top    = top < rect->y ? top : rect->y;
-      right  = right > rect->x + rect->width ? right : rect->x + rect->width;
-      bottom = bottom > rect->y + rect->height ? bottom : rect->y + rect->height;
-    }
-  *rect = (CeldRect) { left, top, right - left, bottom - top };
+  labelling->changed = celd_rect_union (labelling->changed, (CeldRect) { left, y, right - left, 1 });
 }
 
 static void
