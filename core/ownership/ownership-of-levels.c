@@ -183,15 +183,9 @@ celd_level_ownership_clear (CeldLevelOwnership *made)
 static void
 write_levels (const CeldLevelOwnership *made, CeldPlane *expanded)
 {
-  const CeldOwnership *own = &made->own;
-
   for (int y = 0; y < expanded->height; y++)
     for (int x = 0; x < expanded->width; x++)
-      {
-        const CeldLabels *label = CELD_AT (&own->coverage, x, y) >= 0.5f ? &own->owner : &own->under;
-
-        CELD_AT (expanded, x, y) = made->level[CELD_AT (label, x, y) - 1];
-      }
+      CELD_AT (expanded, x, y) = made->level[celd_larger_label (&made->own, x, y) - 1];
 }
 
 CeldStatus

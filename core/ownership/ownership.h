@@ -21,6 +21,13 @@
 
 #include "base/base.h"
 
+/* The label that covers most of a pixel. */
+static inline uint32_t
+celd_larger_label (const CeldOwnership *own, int x, int y)
+{
+  return CELD_AT (&own->coverage, x, y) < 0.5f ? CELD_AT (&own->under, x, y) : CELD_AT (&own->owner, x, y);
+}
+
 /* ------------------------------------------------------------------ tiles */
 
 #define CELD_TILE 16 /* pixels a side (chosen) */

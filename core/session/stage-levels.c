@@ -157,13 +157,6 @@ celd_make_ownership (CeldSession *s, const CeldHost *host)
 
 /* ------------------------------------------------------------------ levels after expansion */
 
-/* The level of the label that covers more of the pixel. */
-static float
-level_at (const CeldOwnership *own, const float *label_level, int x, int y)
-{
-  return label_level[CELD_AT (CELD_AT (&own->coverage, x, y) >= 0.5f ? &own->owner : &own->under, x, y) - 1];
-}
-
 static CeldStatus
 make_all_levels (CeldSession *s, const float *label_level, const CeldHost *host)
 {
@@ -172,7 +165,7 @@ make_all_levels (CeldSession *s, const float *label_level, const CeldHost *host)
 
   for (int y = 0; status == CELD_OK && y < levels.height; y++)
     for (int x = 0; x < levels.width; x++)
-      CELD_AT (&levels, x, y) = level_at (&s->ownership, label_level, x, y);
+      CELD_AT (&levels, x, y) = label_level[celd_larger_label (&s->ownership, x, y) - 1];
   if (status == CELD_OK)
     status = celd_progress (host, 1);
   if (status == CELD_OK)
@@ -190,7 +183,7 @@ update_levels (CeldSession *s, const float *label_level)
   for (int y = r.y; y < r.y + r.height; y++)
     for (int x = r.x; x < r.x + r.width; x++)
       {
-        float level = level_at (&s->ownership, label_level, x, y);
+        float level = label_level[celd_larger_label (&s->ownership, x, y) - 1];
 
         if (CELD_AT (&s->levels, x, y) != level)
           changed = celd_rect_union (changed, (CeldRect) { x, y, 1, 1 });

@@ -154,13 +154,6 @@ typedef struct
   const uint8_t       *standing; /* of label l: standing[l - 1] */
 } CeldSheetView;
 
-/* The label that covers most of a pixel. */
-static inline uint32_t
-celd_larger_label (const CeldOwnership *own, int x, int y)
-{
-  return CELD_AT (&own->coverage, x, y) < 0.5f ? CELD_AT (&own->under, x, y) : CELD_AT (&own->owner, x, y);
-}
-
 /* Where the outline of what is visible of a region vanishes: the place, the direction and the curvature (turn in
  * radians a pixel, clockwise as seen) with which it goes on, and the distance to the place where it reappears. */
 typedef struct { double x, y, direction, curvature, gap; } CeldOutlineEnd;
