@@ -23,6 +23,13 @@
 
 #include <math.h>
 
+/* Whether item i of n is among about `most` evenly spread ones. */
+static inline bool
+celd_is_sample (size_t i, size_t n, size_t most)
+{
+  return n <= most || i * most / n != (i + 1) * most / n;
+}
+
 /* ------------------------------------------------------------------ lattice.c */
 
 /* Corner k of a cell is at x = k % 2, y = k / 2. */

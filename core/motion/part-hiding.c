@@ -117,7 +117,7 @@ take_spots (Hiding *h, size_t k, const CeldAffine *motion)
           if (celd_puppet_alpha (layer, x, y) < 0.5f)
             continue;
           pixels += (size_t) !pass;
-          if (pass && (pixels <= PART_SPOTS || seen * PART_SPOTS / pixels != (seen + 1) * PART_SPOTS / pixels))
+          if (pass && celd_is_sample (seen, pixels, PART_SPOTS))
             {
               celd_affine_map (motion, (float) x + 0.5f, (float) y + 0.5f, spot.at);
               status = celd_append (h->spot, h->n, h->capacity, spot);

@@ -70,7 +70,7 @@ take_points (CeldPartLines *lines)
 
         if (!lines->all[at])
           continue;
-        if (lines->n_all <= most || seen * most / lines->n_all != (seen + 1) * most / lines->n_all)
+        if (celd_is_sample (seen, lines->n_all, most))
           lines->point[lines->n_points++] = (CeldLinePoint) { (float) u + 0.5f, (float) v + 0.5f,
                                                               lines->seen[at] ? 1 : HIDDEN_LINE };
         seen++;

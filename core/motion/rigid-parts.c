@@ -3,8 +3,8 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
+#include "motion/motion.h"
 #include "motion/rigid-parts.h"
-#include "image/image.h"
 
 #include <stdlib.h>
 
@@ -90,13 +90,6 @@ is_covered (const CeldLabels *labels, const uint32_t *level, int x, int y)
          (y + 1 < labels->height && level[CELD_AT (labels, x, y + 1) - 1] > own);
 }
 
-/* Whether item i of n is among about `most` evenly spread ones. */
-static bool
-is_sample (size_t i, size_t n, size_t most)
-{
-  return n <= most || i * most / n != (i + 1) * most / n;
-}
-
 static void
 take_samples (const CeldPlane *ink, const CeldLabels *labels, const uint32_t *level, const CeldRigidParts *parts,
               CeldRigidPart *part, uint32_t number)
@@ -120,10 +113,10 @@ take_samples (const CeldPlane *ink, const CeldLabels *labels, const uint32_t *le
 
         if (part_at (parts, x, y) != number)
           continue;
-        if (celd_is_paper (CELD_AT (ink, x, y)) && is_sample (inside++, part->area, CELD_INSIDE_SAMPLES))
+        if (celd_is_paper (CELD_AT (ink, x, y)) && celd_is_sample (inside++, part->area, CELD_INSIDE_SAMPLES))
           part->inside[part->n_inside++] = at;
         if (on_outline (parts, x, y, number) && !(level && is_covered (labels, level, x, y)) &&
-            is_sample (outline++, own, CELD_OUTLINE_SAMPLES))
+            celd_is_sample (outline++, own, CELD_OUTLINE_SAMPLES))
           part->outline[part->n_outline++] = at;
       }
 }
