@@ -282,32 +282,20 @@ celd_io_frames_kind (const char *path)
 bool
 celd_io_write_frames (const char *path, const CeldIoFrames *frames, CeldIoError *error)
 {
-  bool stopped = false;
-  bool good = guarded ("write", path, error, [&] {
-    try
+  return guarded_write (path, error, [&] {
+    if (!frames->frames)
+      throw IoFailure ("there are no frames.");
+    switch (kind_of (path))
       {
-        if (!frames->frames)
-          throw IoFailure ("there are no frames.");
-        switch (kind_of (path))
-          {
 #ifdef CELD_GIF
-          case CELD_IO_GIF:        write_gif (path, *frames); break;
+      case CELD_IO_GIF:        write_gif (path, *frames); break;
 #else
-          case CELD_IO_GIF:        throw IoFailure ("this build of celdepth has no giflib.");
+      case CELD_IO_GIF:        throw IoFailure ("this build of celdepth has no giflib.");
 #endif
-          case CELD_IO_MPO:        write_mpo (path, *frames); break;
-          case CELD_IO_PNG_FRAMES: write_folder (path, *frames); break;
-          case CELD_IO_NO_FRAMES:  
-            throw IoFailure ("its name must end in .gif or .mpo; without an ending it is a folder.");
-          }
-      }
-    catch (const IoStopped &)
-      {
-        stopped = true;
+      case CELD_IO_MPO:        write_mpo (path, *frames); break;
+      case CELD_IO_PNG_FRAMES: write_folder (path, *frames); break;
+      case CELD_IO_NO_FRAMES:
+        throw IoFailure ("its name must end in .gif or .mpo; without an ending it is a folder.");
       }
   });
-
-  if (stopped)
-    error->text[0] = 0;
-  return good && !stopped;
 }

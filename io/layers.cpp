@@ -3,9 +3,9 @@
 //
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "layers.hpp"
+#include "write-parts.hpp"
 
 #include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imageio.h>
 #include <OpenImageIO/strutil.h>
 
 #include <cctype>
@@ -99,11 +99,7 @@ static void
 write_exr (const std::string &path, const CeldIoStack &stack)
 {
   std::vector<ImageSpec> specs;
-  NewFile                file (path);
-  auto                   output = OIIO::ImageOutput::create ("openexr");
 
-  if (!output)
-    throw IoFailure (OIIO::geterror ());
   for (size_t i = 0; i < stack.layers; i++)
     {
       const CeldRect box = layer_box (stack.layer[i]);
@@ -116,26 +112,15 @@ write_exr (const std::string &path, const CeldIoStack &stack)
       spec.attribute ("oiio:subimagename", stack.layer[i].name);
       specs.push_back (spec);
     }
-  for (size_t i = 0; i < stack.layers; i++)
-    {
-      bool good = i ? output->open (file.name (), specs[i], OIIO::ImageOutput::AppendSubimage) :
-                      output->open (file.name (), int (specs.size ()), specs.data ());
+  write_parts (path, "openexr", specs, [&] (OIIO::ImageOutput &output, size_t i) {
+    std::vector<float> rgba = layer_pixels (stack, i);
 
-      if (!good)
-        throw IoFailure (output->geterror ());
-
-      std::vector<float> rgba = layer_pixels (stack, i);
-
-      for (size_t p = 0; p < rgba.size (); p += 4)
-        for (size_t c = 0; c < 3; c++)
-          rgba[p + c] *= rgba[p + 3];
-      if (!output->write_image (OIIO::TypeFloat, rgba.data ()))
-        throw IoFailure (output->geterror ());
-    }
-  if (!output->close ())
-    throw IoFailure (output->geterror ());
-  output.reset ();
-  file.commit ();
+    for (size_t p = 0; p < rgba.size (); p += 4)
+      for (size_t c = 0; c < 3; c++)
+        rgba[p + c] *= rgba[p + 3];
+    if (!output.write_image (OIIO::TypeFloat, rgba.data ()))
+      throw IoFailure (output.geterror ());
+  });
 }
 
 // ------------------------------------------------------------------ a folder
@@ -198,32 +183,20 @@ celd_io_stack_kind (const char *path)
 bool
 celd_io_write_layers (const char *path, const CeldIoStack *stack, CeldIoError *error)
 {
-  bool stopped = false;
-  bool good = guarded ("write", path, error, [&] {
-    try
+  return guarded_write (path, error, [&] {
+    switch (kind_of (path))
       {
-        switch (kind_of (path))
-          {
-          case CELD_IO_OPEN_RASTER: write_open_raster (path, *stack); break;
+      case CELD_IO_OPEN_RASTER: write_open_raster (path, *stack); break;
 #ifdef CELD_PSD
-          case CELD_IO_PSD:         write_psd (path, *stack); break;
+      case CELD_IO_PSD:         write_psd (path, *stack); break;
 #else
-          case CELD_IO_PSD:
-            throw IoFailure ("this build of celdepth has no ImageMagick, which writes PSD files.");
+      case CELD_IO_PSD:
+        throw IoFailure ("this build of celdepth has no ImageMagick, which writes PSD files.");
 #endif
-          case CELD_IO_EXR_PARTS:   write_exr (path, *stack); break;
-          case CELD_IO_FOLDER:      write_folder (path, *stack); break;
-          case CELD_IO_NO_STACK:    
-            throw IoFailure ("its name must end in .ora, .psd or .exr; without an ending it is a folder.");
-          }
-      }
-    catch (const IoStopped &)
-      {
-        stopped = true;
+      case CELD_IO_EXR_PARTS:   write_exr (path, *stack); break;
+      case CELD_IO_FOLDER:      write_folder (path, *stack); break;
+      case CELD_IO_NO_STACK:
+        throw IoFailure ("its name must end in .ora, .psd or .exr; without an ending it is a folder.");
       }
   });
-
-  if (stopped)
-    error->text[0] = 0;
-  return good && !stopped;
 }

@@ -15,6 +15,28 @@ struct IoStopped
 {
 };
 
+// Writes a file; false, with a sentence, if that throws, and with an empty one if the host stops it.
+template <typename Work>
+bool
+guarded_write (const char *path, CeldIoError *error, Work work)
+{
+  bool stopped = false;
+  bool good = guarded ("write", path, error, [&] {
+    try
+      {
+        work ();
+      }
+    catch (const IoStopped &)
+      {
+        stopped = true;
+      }
+  });
+
+  if (stopped)
+    error->text[0] = 0;
+  return good && !stopped;
+}
+
 // The box of a layer; one pixel if the layer is empty.
 CeldRect layer_box (const CeldIoLayer &layer);
 

@@ -1,17 +1,14 @@
 // Writes pictures in EXR, PNG and TIFF files.
 //
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include "celdepth-io.hpp"
+#include "write-parts.hpp"
 
-#include <OpenImageIO/imageio.h>
 #include <OpenImageIO/strutil.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
-#include <memory>
-#include <vector>
 
 using OIIO::ImageSpec;
 
@@ -129,25 +126,9 @@ write_file (const std::string &path, const CeldIoPicture *parts, size_t n, const
     throw IoFailure ("only EXR files can have several parts.");
   for (size_t i = 0; i < n; i++)
     specs.push_back (make_spec (parts[i], format, notes, n_notes));
-
-  NewFile file (path);
-  auto    output = OIIO::ImageOutput::create (format_name (format));
-
-  if (!output)
-    throw IoFailure (OIIO::geterror ());
-  for (size_t i = 0; i < n; i++)
-    {
-      bool good = i ? output->open (file.name (), specs[i], OIIO::ImageOutput::AppendSubimage) :
-                      output->open (file.name (), int (n), specs.data ());
-
-      if (!good)
-        throw IoFailure (output->geterror ());
-      write_pixels (*output, parts[i], format == Format::exr ? specs[i].alpha_channel : -1);
-    }
-  if (!output->close ())
-    throw IoFailure (output->geterror ());
-  output.reset ();
-  file.commit ();
+  write_parts (path, format_name (format), specs, [&] (OIIO::ImageOutput &output, size_t i) {
+    write_pixels (output, parts[i], format == Format::exr ? specs[i].alpha_channel : -1);
+  });
 }
 
 // ------------------------------------------------------------------ depth, normals, colours, light
