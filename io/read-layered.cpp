@@ -168,7 +168,7 @@ read_page (const ZipFile &zip)
 {
   const std::string kind = zip.has ("mimetype") ? zip.bytes ("mimetype", longest_word) : "";
 
-  if (zip.has ("stack.xml") && kind.compare (0, 18, "application/x-krit"))
+  if (zip.has ("stack.xml") && kind.rfind ("application/x-krita", 0) != 0)
     return read_open_raster (zip);
   if (zip.has ("maindoc.xml"))
     return read_krita (zip);
