@@ -6,16 +6,10 @@
 
 #include "buffers.h"
 
-static GeglRectangle
-image_rectangle (const CeldPipelineInput *input, const CeldPipelineLayer *layer)
-{
-  return (GeglRectangle) { -layer->x, -layer->y, input->width, input->height };
-}
-
 static CeldStatus
 read_paint (const CeldPipeline *p, const CeldPipelineInput *input, CeldLayerRole role, CeldPaint *paint)
 {
-  GeglRectangle rect = image_rectangle (input, &input->layer[role]);
+  GeglRectangle rect = celd_pipeline_rectangle (&input->layer[role], p->width, p->height);
 
   *paint = celd_pipeline_new_paint (p);
   if (!paint->data)
@@ -60,7 +54,7 @@ static gboolean
 check_drawing (CeldPipeline *p, const CeldPipelineInput *input, GError **error)
 {
   const CeldPipelineLayer *layer = &input->layer[CELD_LAYER_DRAWING];
-  GeglRectangle            rect = image_rectangle (input, layer);
+  GeglRectangle            rect = celd_pipeline_rectangle (layer, p->width, p->height);
   gboolean                 alpha = celd_buffer_has_alpha (layer->buffer);
   CeldHost                 host = { NULL, celd_gegl_each, NULL };
   CeldDrawing              drawing = { .luma = celd_pipeline_new_plane (p) };

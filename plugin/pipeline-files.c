@@ -37,14 +37,16 @@ celd_pipeline_save (CeldPipeline *p, CeldPicture picture, const char *path, GErr
 gboolean
 celd_pipeline_save_layer (const CeldPipelineLayer *layer, int width, int height, const char *path, GError **error)
 {
-  CeldPlane plane = { width, height, (size_t) width, g_try_malloc_n ((gsize) width * (gsize) height, sizeof (float)) };
-  gboolean  good = celd_pipeline_try (plane.data ? CELD_OK : CELD_NO_MEMORY, error);
+  CeldPlane     plane = { width, height, (size_t) width,
+                          g_try_malloc_n ((gsize) width * (gsize) height, sizeof (float)) };
+  GeglRectangle image = celd_pipeline_rectangle (layer, width, height);
+  gboolean      good = celd_pipeline_try (plane.data ? CELD_OK : CELD_NO_MEMORY, error);
 
   good = good && celd_pipeline_check_grey (layer, error);
   if (good)
     {
-      gegl_buffer_get (layer->buffer, GEGL_RECTANGLE (-layer->x, -layer->y, width, height), 1, babl_format ("Y float"),
-                       plane.data, GEGL_AUTO_ROWSTRIDE, GEGL_ABYSS_NONE);
+      gegl_buffer_get (layer->buffer, &image, 1, babl_format ("Y float"), plane.data, GEGL_AUTO_ROWSTRIDE,
+                       GEGL_ABYSS_NONE);
       good = save_depth (&plane, path, error);
     }
   g_free (plane.data);

@@ -39,6 +39,9 @@ CeldPlane   celd_pipeline_new_plane   (const CeldPipeline *p);
 CeldPaint   celd_pipeline_new_paint   (const CeldPipeline *p);
 CeldColours celd_pipeline_new_colours (const CeldPipeline *p);
 
+/* An image of this size, in coordinates of the layer's buffer. */
+GeglRectangle celd_pipeline_rectangle (const CeldPipelineLayer *layer, int width, int height);
+
 /* Progress of one step, which begins at `from`, as that of all; a CeldHost.progress for it. */
 typedef struct
 {

@@ -60,11 +60,10 @@ celd_pipeline_new_colours (const CeldPipeline *p)
 
 /* ------------------------------------------------------------------ input */
 
-/* The image in coordinates of the layer's buffer. */
-static GeglRectangle
-image_rectangle (const CeldPipeline *p, const CeldPipelineLayer *layer)
+GeglRectangle
+celd_pipeline_rectangle (const CeldPipelineLayer *layer, int width, int height)
 {
-  return (GeglRectangle) { -layer->x, -layer->y, p->width, p->height };
+  return (GeglRectangle) { -layer->x, -layer->y, width, height };
 }
 
 /* In the language of the host: "Scribbles". */
@@ -86,8 +85,9 @@ check_input (const CeldPipelineInput *input, GError **error)
     {
       const CeldPipelineLayer *layer = &input->layer[role];
       const GeglRectangle     *r = layer->buffer ? gegl_buffer_get_extent (layer->buffer) : NULL;
+      GeglRectangle            image = celd_pipeline_rectangle (layer, input->width, input->height);
 
-      if (r && !gegl_rectangle_intersect (NULL, r, GEGL_RECTANGLE (-layer->x, -layer->y, input->width, input->height)))
+      if (r && !gegl_rectangle_intersect (NULL, r, &image))
         return celd_pipeline_fail (error, _ ("The layer with '%s' lies outside the image. Move it over the image."),
                                    name_of (role));
       for (int other = 0; r && other < role; other++)
@@ -102,7 +102,7 @@ check_input (const CeldPipelineInput *input, GError **error)
 static CeldStatus
 set_drawing (CeldPipeline *p, const CeldPipelineLayer *layer)
 {
-  GeglRectangle rect = image_rectangle (p, layer);
+  GeglRectangle rect = celd_pipeline_rectangle (layer, p->width, p->height);
   gboolean      alpha = celd_buffer_has_alpha (layer->buffer);
   CeldHost      host = { NULL, celd_gegl_each, NULL };
   CeldDrawing   drawing = { .luma = celd_pipeline_new_plane (p) };
@@ -128,7 +128,7 @@ static CeldStatus
 set_layer (CeldPipeline *p, const CeldPipelineLayer *layer,
            CeldStatus (*set) (CeldSession *session, const CeldPaint *paint))
 {
-  GeglRectangle rect = image_rectangle (p, layer);
+  GeglRectangle rect = celd_pipeline_rectangle (layer, p->width, p->height);
   CeldPaint     paint = celd_pipeline_new_paint (p);
   CeldStatus    status = CELD_NO_MEMORY;
 
