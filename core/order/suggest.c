@@ -251,7 +251,8 @@ select_kept (const CeldGraph *graph, size_t n_own, CeldSuggest suggest, CeldRela
     own[i] = graph->kept[i];
   if (status == CELD_OK)
     status = own ? celd_graph_index (graph, CELD_NEARER, own, &down) : CELD_NO_MEMORY;
-  search.arcs[CELD_FARTHER] = celd_arc_index_view (&down);
+  if (status == CELD_OK)
+    search.arcs[CELD_FARTHER] = celd_arc_index_view (&down);
   for (size_t i = n_own; i < all->n && status == CELD_OK; i++)
     if (graph->kept[i] && (suggest == CELD_SUGGEST_ALL || !is_decided (&search, i)))
       all->item[n++] = all->item[i];
