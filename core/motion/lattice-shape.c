@@ -28,14 +28,6 @@ fit_cell (const CeldLattice *lattice, size_t cell, float centre[2], float turn[2
   turn[1] = length > 1e-6f ? b / length : 0;
 }
 
-void
-celd_cell_turn (const CeldLattice *lattice, size_t cell, float turn[2])
-{
-  float centre[2];
-
-  fit_cell (lattice, cell, centre, turn);
-}
-
 float
 celd_cell_area (const CeldLattice *lattice, size_t cell)
 {

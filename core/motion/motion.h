@@ -103,9 +103,6 @@ typedef struct { float x, y, weight; } CeldPull;
  * 3 x n_vertices floats. */
 void celd_lattice_relax (CeldLattice *lattice, int sweeps, const CeldPull *pull, float seams, float *scratch);
 
-/* The rigid motion nearest to that of a cell: cosine and sine; 1, 0 for a cell that is squeezed to a point. */
-void celd_cell_turn (const CeldLattice *lattice, size_t cell, float turn[2]);
-
 /* The area of a cell relative to its rest pose; negative if it is folded over. */
 float celd_cell_area (const CeldLattice *lattice, size_t cell);
 

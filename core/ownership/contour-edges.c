@@ -121,8 +121,8 @@ follow_all (EdgeTracer *t, const CeldHost *host)
 
 /* ------------------------------------------------------------------ corners */
 
-float
-celd_edge_distance (const CeldEdgePoint *a, const CeldEdgePoint *b)
+static float
+edge_distance (const CeldEdgePoint *a, const CeldEdgePoint *b)
 {
   return hypotf (a->x - b->x, a->y - b->y);
 }
@@ -132,7 +132,7 @@ static bool
 is_corner (const CeldEdgePoint *point, size_t n, size_t i)
 {
   const CeldEdgePoint *a = &point[(i + n - TURN_RADIUS % n) % n], *p = &point[i], *b = &point[(i + TURN_RADIUS) % n];
-  float                before = celd_edge_distance (a, p), after = celd_edge_distance (p, b);
+  float                before = edge_distance (a, p), after = edge_distance (p, b);
 
   return (p->x - a->x) * (b->x - p->x) + (p->y - a->y) * (b->y - p->y) < CORNER_COSINE * before * after;
 }
@@ -141,7 +141,7 @@ static void
 find_corners (CeldEdgePoint *point, size_t n)
 {
   for (size_t i = 0; i < n; i++)
-    point[i].step = celd_edge_distance (&point[i], &point[(i + 1) % n]);
+    point[i].step = edge_distance (&point[i], &point[(i + 1) % n]);
   for (size_t i = 0; i < n; i++)
     if (is_corner (point, n, i))
       {

@@ -129,9 +129,6 @@ typedef struct
 CeldStatus celd_contour_edges_new (const CeldPlane *ink, const CeldHost *host, CeldContourEdges *edges);
 void       celd_contour_edges_clear (CeldContourEdges *edges);  /* accepts a zeroed record */
 
-/* Distance in pixels. */
-float celd_edge_distance (const CeldEdgePoint *a, const CeldEdgePoint *b);
-
 /* Rounds down, also below 0: the pixel that a coordinate lies in. */
 static inline int
 celd_floor (float value)

@@ -169,8 +169,10 @@ add_up_votes (Draft *draft, CeldPartitionGraph *graph)
     graph->by_rank[draft->count[graph->vote_sum[i].rank]++] = (uint32_t) i;
 }
 
-CeldStatus
-celd_partition_graph_new (const CeldPartition *problem, CeldPartitionGraph *graph)
+/* The graph's nodes are those of the problem that are not fixed, in the same order.  To be cleared, also after a
+ * failure. */
+static CeldStatus
+graph_new (const CeldPartition *problem, CeldPartitionGraph *graph)
 {
   Draft      draft;
   CeldStatus status = draft_new (problem, &draft);
@@ -195,8 +197,8 @@ done:
   return status;
 }
 
-void
-celd_partition_graph_clear (CeldPartitionGraph *graph)
+static void
+graph_clear (CeldPartitionGraph *graph)
 {
   celd_network_clear (&graph->network);
   celd_free (graph->cost);
@@ -242,7 +244,7 @@ celd_partition (const CeldPartition *problem, const CeldHost *host, uint32_t *la
   CeldHostPart       part[2];
   CeldHost           half[2] = { celd_host_part (&part[0], host, 0, 0.5), celd_host_part (&part[1], host, 0.5, 1) };
   uint32_t          *result = celd_alloc (problem->n, sizeof *result);
-  CeldStatus         status = result ? celd_partition_graph_new (problem, &graph) : CELD_NO_MEMORY;
+  CeldStatus         status = result ? graph_new (problem, &graph) : CELD_NO_MEMORY;
   int64_t            before, after;
 
   if (status == CELD_OK)
@@ -262,7 +264,7 @@ celd_partition (const CeldPartition *problem, const CeldHost *host, uint32_t *la
     *greedy = before;
 
 done:
-  celd_partition_graph_clear (&graph);
+  graph_clear (&graph);
   celd_free (result);
   return status;
 }

@@ -143,10 +143,6 @@ typedef struct
   uint32_t    *rank;       /* of each node: the answer */
 } CeldPartitionGraph;
 
-/* partition.c.  The graph's nodes are those of the problem that are not fixed, in the same order. */
-CeldStatus celd_partition_graph_new (const CeldPartition *problem, CeldPartitionGraph *graph);
-void       celd_partition_graph_clear (CeldPartitionGraph *graph); /* accepts a zeroed one */
-
 /* partition-greedy.c: a first answer. */
 CeldStatus celd_partition_greedy (CeldPartitionGraph *graph, const CeldHost *host);
 

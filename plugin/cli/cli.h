@@ -442,8 +442,6 @@ char       **cli_model_names_of_regions (const CeldPlane *levels, const CeldLabe
 CeldSettings cli_model_settings (const CliOptions *options);
 /* Takes over the names. */
 bool         cli_model_write (const char *path, const CeldModel *model, char **name);
-/* Whether making meshes succeeded; if not, prints why.  Says where the error had to be increased. */
-bool         cli_mesh_finish (const CliOptions *options, CliRun *run, CeldStatus status, double error);
 
 /* ------------------------------------------------------------------ the sub-commands */
 

@@ -55,8 +55,10 @@ read_description (JsonNode *root, const char *folder, const char *path, CliClip 
   return true;
 }
 
-bool
-cli_clip_read (const char *folder, CliClip *clip)
+/* Reads clip.json of a folder; names in it are relative to the folder.  False with a message.  The caller clears the
+ * clip in either case. */
+static bool
+read_clip (const char *folder, CliClip *clip)
 {
   char       *path = g_build_filename (folder, CLI_CLIP_FILE, NULL), *full = g_canonicalize_filename (folder, NULL);
   JsonParser *parser = json_parser_new_immutable ();
@@ -196,7 +198,7 @@ cli_clip_run (const CliCommand *command, const CliOptions *options)
 {
   CliClip clip = { 0 };
   int     code = CLI_DONE;
-  bool    good = cli_clip_read (options->clip, &clip);
+  bool    good = read_clip (options->clip, &clip);
 
   for (size_t i = 0; i < clip.n && good; i++)
     {

@@ -18,8 +18,9 @@ wants_heights (const CliOptions *options)
 
 /* ------------------------------------------------------------------ heights */
 
-bool
-cli_mesh_finish (const CliOptions *options, CliRun *run, CeldStatus status, double error)
+/* Whether making meshes succeeded; if not, prints why.  Says where the error had to be increased. */
+static bool
+finish_mesh (const CliOptions *options, CliRun *run, CeldStatus status, double error)
 {
   if (status == CELD_BAD_VALUE) /* with valid settings: the outlines alone have too many vertices */
     {
@@ -48,7 +49,7 @@ write_surface (const CliOptions *options, const CeldRelief *relief, CliLayers *i
   s.mesh_kind = celd_io_mesh_kind (options->mesh) == CELD_IO_STL ? CELD_MESH_SOLID : CELD_MESH_SURFACE;
   cli_run_stage (run, "mesh");
   status = celd_relief_mesh (relief, &s, &run->host, &mesh);
-  good   = cli_mesh_finish (options, run, status, mesh.error) &&
+  good   = finish_mesh (options, run, status, mesh.error) &&
            cli_art_read (options->drawing ? options->drawing : options->input, options->colours, false, input,
                          &art) &&
            cli_write_meshes (options->mesh, &(CeldIoMesh) { "relief", &mesh }, 1, &art);
@@ -123,7 +124,7 @@ model_of_levels (const CliOptions *options, CliStep *step)
       if (status == CELD_OK)
         status = celd_model_of_levels (&step->ink, cli_step_borders (step), &step->levels, known, &art, &settings,
                                        &step->run.host, &model);
-      good = cli_mesh_finish (options, &step->run, status, model.error) &&
+      good = finish_mesh (options, &step->run, status, model.error) &&
              cli_model_write (options->mesh, &model, cli_model_names_of_regions (&step->levels, known, &palette));
     }
   g_free (regions.data);
@@ -184,7 +185,7 @@ model_of_session (CeldSession *session, const CliOptions *options, CliLayers *in
 
       cli_run_stage (run, "mesh");
       status = celd_session_model (session, &art, &run->host, &model);
-      good   = cli_mesh_finish (options, run, status, model.error) &&
+      good   = finish_mesh (options, run, status, model.error) &&
                cli_model_write (options->mesh, &model, cli_model_names (celd_session_palette (session)));
     }
   g_free (art.data);

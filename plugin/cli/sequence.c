@@ -25,8 +25,9 @@ find_digits (const char *path, size_t *first, size_t *n)
   return *n > 0;
 }
 
-bool
-cli_frame_number (const char *path, int *number)
+/* The last number in a file's name without its ending, such as 12 for walk2_012.png.  False if there is none. */
+static bool
+frame_number (const char *path, int *number)
 {
   size_t first, n;
   gint64 value = 0;
@@ -126,7 +127,7 @@ number_all (GPtrArray *paths, CliSequence *sequence)
 
       frame->path = g_strdup (paths->pdata[i]);
       sequence->n++;
-      if (!cli_frame_number (frame->path, &frame->number))
+      if (!frame_number (frame->path, &frame->number))
         return cli_error ("\"%s\": the name of a frame must have a number, such as frame_001.png.", frame->path);
     }
   qsort (sequence->frame, sequence->n, sizeof *sequence->frame, compare_frames);

@@ -20,8 +20,6 @@ bool   cli_sequence_find  (char *const *names, size_t n, CliSequence *sequence);
 void   cli_sequence_clear (CliSequence *sequence);
 /* The index of a frame's number; SIZE_MAX if there is none. */
 size_t cli_sequence_index (const CliSequence *sequence, int number);
-/* The last number in a file's name without its ending, such as 12 for walk2_012.png.  False if there is none. */
-bool   cli_frame_number   (const char *path, int *number);
 
 /* ------------------------------------------------------------------ clip.c */
 
@@ -37,9 +35,6 @@ typedef struct
   char         *relations;  /* a text file of relations that hold in all frames; NULL: none */
 } CliClip;
 
-/* Reads clip.json of a folder; names in it are relative to the folder.  False with a message.  The caller clears the
- * clip in either case. */
-bool cli_clip_read  (const char *folder, CliClip *clip);
 /* Writes clip.json; names in or below the folder become relative to it. */
 bool cli_clip_write (const char *folder, const CliClip *clip);
 void cli_clip_clear (CliClip *clip);
