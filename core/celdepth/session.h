@@ -24,9 +24,13 @@ CELD_API void         celd_session_free (CeldSession *session);   /* accepts NUL
  * palette, relations, order and problems that the session lent stay until it is freed or gets another drawing. */
 CELD_API void         celd_session_drop_pictures (CeldSession *session);
 
+/* Settings or a drawing that equal the present ones make no result invalid, and after a failure all stays as it was.
+ * Settings out of range are CELD_BAD_VALUE; a drawing without pixels, with more than CELD_MAX_SIDE a side, or with alpha
+ * of another size is CELD_BAD_SIZE.  A drawing of another size than the one before removes all layers and results, but
+ * no strokes and no relations. */
 CELD_API CeldStatus celd_session_set_settings  (CeldSession *session, const CeldSettings *settings);
 CELD_API CeldStatus celd_session_set_drawing   (CeldSession *session, const CeldDrawing *drawing);
-/* Layers of the drawing's size, else CELD_BAD_SIZE; NULL removes one.  A drawing of another size removes them all. */
+/* Layers of the drawing's size, else CELD_BAD_SIZE; NULL removes one. */
 CELD_API CeldStatus celd_session_set_scribbles (CeldSession *session, const CeldPaint *scribbles);
 CELD_API CeldStatus celd_session_set_arrows    (CeldSession *session, const CeldPaint *arrows);
 CELD_API CeldStatus celd_session_set_contours  (CeldSession *session, const CeldPaint *contours);

@@ -384,7 +384,7 @@ CELD_API void       celd_stereo_size (CeldStereo format, int *width, int *height
 CELD_API CeldStatus celd_stereo_join (const CeldColours *left, const CeldColours *right, CeldStereo format,
                                       CeldColours *joined);
 
-/* Makes a relief: each region is inflated by settings->bulge, placed at its depth, and moved forward where it would
+/* Makes a relief: each region is inflated by settings->relief_bulge, placed at its depth, and moved forward where it would
  * intersect what is behind it.  The surface is cut at depth discontinuities only, those of celd_smooth with
  * `borders` (may be NULL).  `depth` is smooth depth; NULL: computed by celd_smooth.  Replaces `relief`. */
 CELD_API CeldStatus celd_relief (const CeldPlane *ink, const CeldPlane *borders, const CeldPlane *levels,

@@ -245,9 +245,10 @@ typedef struct
   size_t   area;
 } CeldComponent;
 
-/* Finds the 4-connected (with `diagonal` 8-connected) components of equal labels.  Pixels of label `none` (UINT32_MAX:
- * no such label) get component 0, others 1 .. n in reading order of the component's first pixel.  *list has n items,
- * item k-1 for component k; the caller frees it with celd_free.  `components` may alias `labels`. */
+/* Finds the 4-connected (with `diagonal` 8-connected) components of equal labels.  Pixels of label `none` get component
+ * 0, others 1 .. n in reading order of the component's first pixel; with UINT32_MAX, which no region has, all pixels of
+ * regions get one.  *list has n items, item k-1 for component k; the caller frees it with celd_free.  `components` may
+ * alias `labels`. */
 CeldStatus celd_components (const CeldLabels *labels, uint32_t none, bool diagonal, const CeldHost *host,
                             CeldLabels *components, CeldComponent **list, size_t *n);
 

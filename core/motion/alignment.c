@@ -5,7 +5,6 @@
  * each by the nearness to ink of the target where they come to lie.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
- * /
  */
 #include "motion/motion.h"
 
