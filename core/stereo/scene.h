@@ -4,6 +4,8 @@
  *   scene-of-layers.c   scenes of layers
  *   layer-depth.c       depth of layers where they are occluded
  *   scene-from-depth.c  scenes of a picture with a depth map
+ *   scanline.c          rows of views
+ *   scene-transpose.c   columns of views from above or below
  *   scene-view.c        views
  *   turntable.c         scenes of a relief that turns
  *
