@@ -7,31 +7,10 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "image/image.h"
-#include "segment/basins.h"
-#include "segment/bridges.h"
-#include "segment/segment.h"
+#include "segment/segmenter.h"
 #include "segment/splits.h"
-#include "segment/task.h"
 
 #include <string.h>
-
-struct CeldSegmenter
-{
-  CeldPlane     ink;               /* borrowed */
-  CeldBridges   bridges;
-  uint32_t     *bridged_component; /* of each basin: its component with bridges as lines; NULL: no bridges */
-  CeldBasins    basins;
-  float         threshold;         /* ink_threshold of the basins */
-  bool          bridged;           /* were they made with bridges? */
-  CeldLabelling labelling;
-  CeldStrokes   strokes;           /* of the last solve's seeds */
-  CeldClosures  closures;
-  CeldPatches   redrawn;           /* pixels changed by closing gaps or refining boundaries in the last solve */
-  bool         *seeded;            /* of the last solve, as in CeldSegmentTask; NULL: without arrows */
-  size_t        n_effective;
-  uint32_t      background;        /* label of the last solve's background, and its region; 0: none */
-  CeldRegion    background_region;
-};
 
 /* ------------------------------------------------------------------ the object */
 
@@ -61,6 +40,12 @@ const CeldClosures *
 celd_segmenter_closures (const CeldSegmenter *segmenter)
 {
   return &segmenter->closures;
+}
+
+size_t
+celd_segmenter_effective_relations (const CeldSegmenter *segmenter)
+{
+  return segmenter->n_effective;
 }
 
 CeldStatus
@@ -346,45 +331,6 @@ celd_segmenter_solve (CeldSegmenter *segmenter, const CeldSeedRows *seeds, const
   celd_problems_clear (&found);
   celd_task_clear (&task);
   return status;
-}
-
-/* ------------------------------------------------------------------ relations that change nothing */
-
-size_t
-celd_segmenter_effective_relations (const CeldSegmenter *segmenter)
-{
-  return segmenter->n_effective;
-}
-
-/* Does the relation put the background in front of something, so that it is none? */
-static bool
-rules_out_background (const CeldSegmenter *s, const CeldSegmentTask *task, const CeldRelation *relation,
-                      const CeldLabels *labels)
-{
-  CeldPalette     palette = { (CeldRegion *) &s->background_region, 1 };
-  CeldRelationEnd end;
-
-  if (relation->equal || !s->background)
-    return false;
-  if (relation->nearer.by_colour)
-    return celd_palette_find (&palette, relation->nearer.colour);
-  end = celd_relation_end_find (task, &relation->nearer);
-  return end.there && CELD_AT (labels, end.x, end.y) == s->background;
-}
-
-/* Boundaries are redrawn after regions are split, so the ends must not lie where that has changed pixels. */
-bool
-celd_segmenter_is_redundant (const CeldSegmenter *segmenter, const CeldRelation *relation, const CeldSettings *settings,
-                             const CeldLabels *labels)
-{
-  const CeldSegmenter *s = segmenter;
-  CeldSegmentTask      task = { .settings = settings, .ink = &s->ink, .basins = &s->basins, .seeded = s->seeded };
-
-  if (settings->seeds != CELD_SEEDS_AUTO)
-    return true;
-  return s->seeded && !rules_out_background (s, &task, relation, labels) &&
-         !celd_arrow_seeds_needed (&task, relation) &&
-         celd_regions_are_separate (&task, relation, labels, &s->redrawn);
 }
 
 /* ------------------------------------------------------------------ in one call, without keeping anything */
