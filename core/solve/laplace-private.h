@@ -1,6 +1,7 @@
 /* What the files of the Laplacian solver share.  In the order of a solution:
  *
- *   laplace-system.c       boundary conditions: the free pixels as a weighted graph; floating components
+ *   laplace-system.c       boundary conditions: the free pixels as a weighted graph
+ *   laplace-null-space.c   floating components of it
  *   laplace-direct.c       elimination: of small systems, and of the coarsest level
  *   laplace-hierarchy.c    set-up of the levels: laplace-quality.c leaves out dominant nodes, laplace-aggregation.c
  *                          aggregates the others in cells, or laplace-quality.c in pairs, and laplace-galerkin.c
@@ -284,7 +285,7 @@ bool       celd_is_direct (const CeldWeightedGraph *pixels, bool weak); /* is el
 CeldStatus celd_direct_new (const CeldWeightedGraph *pixels, CeldLaplace *laplace);
 CeldStatus celd_direct_solve (const CeldLaplace *laplace, int lanes, const float *b, const double *b_mean, float *x);
 
-/* ------------------------------------------------------------------ laplace-system.c: floating components */
+/* ------------------------------------------------------------------ laplace-null-space.c */
 
 static inline size_t
 celd_null_space_runs (const CeldLaplace *laplace)
