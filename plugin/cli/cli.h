@@ -3,7 +3,7 @@
  * Each sub-command is in a file of its name: popup, segment, order, expand, smooth, shade, enhance, stereo, wiggle,
  * relief, exact, layers, register, compose, propagate, deform, inbetween.  The other files:
  *
- *   cli.c       chooses the sub-command         pictures.c  reads and writes pictures
+ *   cli.c       chooses the sub-command         pictures*.c reads and writes pictures
  *   options*.c  options of a sub-command        npy.c       reads and writes numpy files
  *   help.c      --help of a sub-command         streams.c   "-": standard input and output
  *   input.c     reads a drawing and its layers  text.c      relations as text, text files
@@ -172,7 +172,7 @@ CliThreads *cli_threads_new  (void);                     /* NULL: one thread is 
 void        cli_threads_free (CliThreads *threads);      /* accepts NULL */
 void        cli_threads_each (CliThreads *threads, int n, void (*body) (void *data, int i), void *data);
 
-/* ------------------------------------------------------------------ pictures.c, npy.c */
+/* ------------------------------------------------------------------ pictures.c, pictures-write.c, npy.c */
 
 /* A photograph is refused, with a message about `path`, unless the options say what the lines are, or that there are
  * none. */
