@@ -35,8 +35,8 @@ CeldStatus celd_segmenter_solve (CeldSegmenter *segmenter, const CeldSeedRows *s
 /* The number of relations, counted from the first, that the last solve depends on: those after them changed nothing. */
 size_t celd_segmenter_effective_relations (const CeldSegmenter *segmenter);
 
-/* redundant-relations.c: would this relation, added after those of the last solve, change nothing?  `settings` and `labels` are those of the
- * last solve.  Also false where that is not known without solving. */
+/* Would this relation, added after those of the last solve, change nothing (redundant-relations.c)?  `settings` and
+ * `labels` are those of the last solve.  Also false where that is not known without solving. */
 bool celd_segmenter_is_redundant (const CeldSegmenter *segmenter, const CeldRelation *relation,
                                   const CeldSettings *settings, const CeldLabels *labels);
 
