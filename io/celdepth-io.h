@@ -172,6 +172,9 @@ bool celd_io_write_heights (const char *path, const CeldPlane *heights, CeldIoEr
 typedef enum { CELD_IO_NO_MESH, CELD_IO_GLB, CELD_IO_OBJ, CELD_IO_PLY, CELD_IO_STL } CeldIoMeshKind;
 CeldIoMeshKind celd_io_mesh_kind (const char *path);
 
+/* Calls `take` with the name of each file that writing a mesh makes: its own, and those beside it. */
+void celd_io_mesh_files (const char *path, void (*take) (void *host, const char *name), void *host);
+
 /* Writes n meshes: .glb and .obj keep them apart, by their names.  The art of all of them is sRGB with straight alpha,
  * and is composited on white; NULL: none. */
 typedef struct { const char *name; const CeldReliefMesh *mesh; } CeldIoMesh;

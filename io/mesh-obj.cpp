@@ -72,6 +72,12 @@ put_faces (Writer &writer, const CeldReliefMesh &mesh, size_t first)
     }
 }
 
+std::vector<std::string>
+files_beside_obj (const std::string &path)
+{
+  return { place_of (path, name_beside (path, ".mtl")), place_of (path, name_beside (path, "-texture.png")) };
+}
+
 void
 write_obj (const std::string &path, const Meshes &meshes, const CeldColours *art)
 {

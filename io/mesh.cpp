@@ -87,6 +87,19 @@ celd_io_mesh_kind (const char *path)
   return kind;
 }
 
+void
+celd_io_mesh_files (const char *path, void (*take) (void *host, const char *name), void *host)
+{
+  CeldIoError ignored;
+
+  take (host, path);
+  guarded ("write", path, &ignored, [&] {
+    if (kind_of (path) == CELD_IO_OBJ)
+      for (const std::string &beside : files_beside_obj (path))
+        take (host, beside.c_str ());
+  });
+}
+
 bool
 celd_io_write_meshes (const char *path, const CeldIoMesh *mesh, size_t n, const CeldColours *art, CeldIoError *error)
 {

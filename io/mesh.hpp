@@ -76,6 +76,9 @@ void write_obj (const std::string &path, const Meshes &meshes, const CeldColours
 void write_ply (const std::string &path, const Meshes &meshes, const CeldColours *art);
 void write_stl (const std::string &path, const Meshes &meshes);
 
+// The files that write_obj makes beside that of the path.
+std::vector<std::string> files_beside_obj (const std::string &path);
+
 // The art on white, as an opaque PNG.
 Bytes encode_texture (const CeldColours &art);
 

@@ -50,6 +50,8 @@ void  cli_book_name_results (const CliBook *book, const char *page, GPtrArray *w
 
 /* Takes the fingerprint of the program, settings, options, relations and the page; false with a message. */
 bool  cli_page_take_fingerprint  (CliPage *page);
+/* The file that says from what the page was made; free with g_free. */
+char *cli_page_state_path        (const CliPage *page);
 /* Whether an earlier run has made the page of the same; *contradicted says whether its relations contradict. */
 bool  cli_page_is_made           (const CliPage *page, bool *contradicted);
 bool  cli_page_write_state       (const CliPage *page, bool contradicted);

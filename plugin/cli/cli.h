@@ -5,6 +5,7 @@
  *
  *   cli.c       chooses the sub-command         pictures*.c reads and writes pictures
  *   options*.c  options of a sub-command        npy.c       reads and writes numpy files
+ *   outputs.c   what may be written
  *   help.c      --help of a sub-command         streams.c   "-": standard input and output
  *   input.c     reads a drawing and its layers  text.c      relations as text, text files
  *   input-checks.c, photograph.c  refuse what makes no sense
@@ -96,14 +97,15 @@ typedef struct
 int  cli_options_parse (const CliCommand *command, int argc, char **argv, CliOptions *options);
 void cli_options_clear (CliOptions *options);
 
-/* Whether two names are the same, written in different ways or not. */
-bool  cli_same_file     (const char *a, const char *b);
 /* The ending that an output has by default, such as "png"; NULL: the command has no such output. */
 const char *cli_files_ending (const CliCommand *command, const char *option);
-/* Appends the names of all files that are read, which stay those of the options. */
+/* Appends the names of the files that are read, which stay those of the options. */
 void  cli_files_inputs  (const CliOptions *options, GPtrArray *names);
 /* A file's name with a number in place of its #, or else before its ending; free with g_free. */
 char *cli_file_numbered (const char *name, int number);
+
+/* outputs.c: whether two names stand for the same file, also by links. */
+bool  cli_same_file     (const char *a, const char *b);
 
 /* streams.c: copies the file for standard output there; removes all files.  False with a message. */
 bool cli_streams_write (CliStreams *streams);

@@ -51,6 +51,21 @@ cli_frame_remove_unfinished (const CliMotion *motion, size_t frame, const CliKey
 }
 
 bool
+cli_frame_touches (const CliMotion *motion, size_t frame, CliTouched *touched)
+{
+  bool good = true;
+
+  for (const char *const *result = results_of (motion, NULL); *result && good; result++)
+    {
+      char *path = cli_frame_path (motion, *result, frame, NULL);
+
+      good = cli_touched_writes (touched, strcmp (*result, "depth") ? "labels-dir" : "depth-dir", path);
+      g_free (path);
+    }
+  return good;
+}
+
+bool
 cli_frame_is_complete (const CliMotion *motion, size_t frame, const CliKey *side)
 {
   bool complete = true;

@@ -3,9 +3,8 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "json.h"
-#include "options.h"
+#include "outputs.h"
 #include "sequence.h"
-
 
 /* ------------------------------------------------------------------ reading */
 
@@ -187,10 +186,46 @@ run_frame (const CliCommand *command, const CliOptions *all, const CliClip *clip
   options.frames_in_all = (int) clip->n;
   if ((!command->check || command->check (&options)) && cli_files_check (command, &options) &&
       cli_texts_check (&options))
-    code = cli_files_check_places (&options) ? command->run (&options) : CLI_FAILED;
+    code = cli_outputs_check_places (&options) ? command->run (&options) : CLI_FAILED;
   cli_files_clear (&options);
   g_free (options.input);
   return code;
+}
+
+/* Whether a result of any frame would replace a file of the clip. */
+static bool
+check_outputs (const CliOptions *all, const CliClip *clip)
+{
+  char      *description = g_build_filename (all->clip, CLI_CLIP_FILE, NULL);
+  CliTouched touched;
+  bool       good = true;
+
+  cli_touched_begin (&touched);
+  cli_touched_reads (&touched, NULL, description);
+  cli_touched_reads (&touched, NULL, clip->relations);
+  for (int writes = 0; writes < 2; writes++)
+    for (size_t i = 0; i < clip->n && good; i++)
+      {
+        const CliClipFrame *frame = &clip->frame[i];
+        CliOptions          options;
+
+        options_of_frame (all, clip, frame, &options);
+        if (writes)
+          good = cli_touched_writes_all (&touched, &options);
+        else
+          {
+            cli_touched_reads_all (&touched, &options);
+            cli_touched_reads (&touched, NULL, frame->drawing);
+            cli_touched_reads (&touched, NULL, frame->labels);
+            cli_touched_reads (&touched, NULL, frame->levels);
+            cli_touched_reads (&touched, NULL, frame->depth);
+          }
+        cli_files_clear (&options);
+        g_free (options.input);
+      }
+  cli_touched_end (&touched);
+  g_free (description);
+  return good;
 }
 
 int
@@ -200,6 +235,11 @@ cli_clip_run (const CliCommand *command, const CliOptions *options)
   int     code = CLI_DONE;
   bool    good = read_clip (options->clip, &clip);
 
+  if (good && !check_outputs (options, &clip))
+    {
+      good = false;
+      code = CLI_USAGE;
+    }
   for (size_t i = 0; i < clip.n && good; i++)
     {
       int this;

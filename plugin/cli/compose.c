@@ -3,7 +3,7 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "composition.h"
-#include "options.h"
+#include "outputs.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -360,6 +360,22 @@ make (Compose *c)
   return cli_colours_new (width, height, &c->picture) && cli_run_finish (&c->run, compose (c, width, height));
 }
 
+/* Whether an output would replace a file of a drawing. */
+static bool
+check_outputs (const Compose *c)
+{
+  CliTouched touched;
+  bool       good;
+
+  cli_touched_begin (&touched);
+  cli_touched_reads_all (&touched, c->options);
+  for (guint i = 0; i < c->scene.n; i++)
+    cli_touched_reads_all (&touched, &c->scene.fragment[i].options);
+  good = cli_touched_writes_all (&touched, c->options);
+  cli_touched_end (&touched);
+  return good;
+}
+
 static int
 run_compose (const CliOptions *options)
 {
@@ -369,6 +385,11 @@ run_compose (const CliOptions *options)
   GString        *stages = g_string_new (NULL);
   bool            good = cli_composition_read (options->input, options, &c.scene);
 
+  if (good && !check_outputs (&c))
+    {
+      good = false;
+      code = CLI_USAGE;
+    }
   c.linear  = kind == CELD_IO_EXR_PARTS || (options->compositing && !strcmp (options->compositing, "linear"));
   c.drawing = g_new0 (Drawing, c.scene.n);
   c.name    = g_new0 (char *, c.scene.n + 1);

@@ -2,28 +2,17 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
-#include "options.h"
+#include "outputs.h"
 
-#include <errno.h>
-#include <glib/gstdio.h>
 #include <stddef.h>
 #include <string.h>
-#include <unistd.h>
-
-/* HOW is a text about the output; kinds from OUTPUT on are written.  MAPS stands for the names of several pictures,
- * JOINED is a picture or an MPO file,
- * COMPOSED a picture or layers, MOVING a picture or frames, DEFORMED any of these. */
-typedef enum
-{
-  INPUT, TEXT, HOW, MAPS, OUTPUT, JOINED, REPORT, STACK, FRAMES, MESH, COMPOSED, MOVING, DEFORMED
-} FileKind;
 
 typedef struct
 {
   const char *name;
   int         steps;       /* CliSteps with this option */
   int         required;    /* CliSteps that need it */
-  FileKind    kind;
+  CliFileKind kind;
   size_t      offset;      /* in CliOptions */
   const char *value, *help;
 } FileOption;
@@ -170,7 +159,7 @@ file_name (CliOptions *options, const FileOption *file)
 }
 
 static bool
-is_text (FileKind kind)
+is_text (CliFileKind kind)
 {
   return kind == TEXT || kind == HOW;
 }
@@ -199,16 +188,28 @@ cli_files_ending (const CliCommand *command, const char *option)
 }
 
 void
-cli_files_inputs (const CliOptions *options, GPtrArray *names)
+cli_files_given (const CliOptions *options, GArray *given)
 {
-  g_ptr_array_add (names, options->input);
   for (size_t i = 0; i < G_N_ELEMENTS (files); i++)
     {
-      char *name = *file_name ((CliOptions *) options, &files[i]);
+      char *path = *file_name ((CliOptions *) options, &files[i]);
 
-      if (name && files[i].kind == INPUT && files[i].steps & (int) options->step)
-        g_ptr_array_add (names, name);
+      if (path && !is_text (files[i].kind))
+        g_array_append_val (given, ((CliFile) { files[i].name, files[i].kind, path }));
     }
+}
+
+void
+cli_files_inputs (const CliOptions *options, GPtrArray *names)
+{
+  GArray *given = g_array_new (FALSE, FALSE, sizeof (CliFile));
+
+  g_ptr_array_add (names, options->input);
+  cli_files_given (options, given);
+  for (guint i = 0; i < given->len; i++)
+    if (g_array_index (given, CliFile, i).kind == INPUT)
+      g_ptr_array_add (names, (gpointer) g_array_index (given, CliFile, i).path);
+  g_array_free (given, TRUE);
 }
 
 /* ------------------------------------------------------------------ frames */
@@ -293,17 +294,6 @@ cli_files_stream (const CliCommand *command, CliOptions *options)
 /* ------------------------------------------------------------------ checks */
 
 bool
-cli_same_file (const char *a, const char *b)
-{
-  char *full_a = g_canonicalize_filename (a, NULL), *full_b = g_canonicalize_filename (b, NULL);
-  bool  same = !strcmp (full_a, full_b);
-
-  g_free (full_a);
-  g_free (full_b);
-  return same;
-}
-
-bool
 cli_files_check (const CliCommand *command, CliOptions *options)
 {
   int outputs = 0;
@@ -338,95 +328,10 @@ cli_files_check (const CliCommand *command, CliOptions *options)
                           "folder.", files[i].name, name);
       if (files[i].kind == MESH && !celd_io_mesh_kind (name))
         return cli_error ("--%s %s: the name must end in .glb, .obj, .ply or .stl.", files[i].name, name);
-      for (int k = 0; k < 2; k++)
-        {
-          const char *read = k ? options->target : options->input;
-
-          if (read && cli_same_file (name, read))
-            return cli_error ("--%s would overwrite %s.", files[i].name, read);
-        }
-      for (size_t k = 0; k < G_N_ELEMENTS (files); k++)
-        {
-          const char *other = *file_name (options, &files[k]);
-
-          if (k != i && other && !is_text (files[k].kind) && files[k].kind != MAPS && cli_same_file (name, other))
-            return cli_error ("--%s and --%s name the same file.", files[i].name, files[k].name);
-        }
     }
-  return outputs || options->maps || options->labels_dir ||
-         cli_error ("There is nothing to write: give at least one output, such as --%s.", command->output);
-}
-
-bool
-cli_is_device (const char *path)
-{
-  return g_file_test (path, G_FILE_TEST_EXISTS) && !g_file_test (path, G_FILE_TEST_IS_REGULAR) &&
-         !g_file_test (path, G_FILE_TEST_IS_DIR);
-}
-
-static bool
-is_empty (const char *folder)
-{
-  GDir *open = g_dir_open (folder, 0, NULL);
-  bool  empty = open && !g_dir_read_name (open);
-
-  if (open)
-    g_dir_close (open);
-  return empty;
-}
-
-/* Whether a file can be written there, with a message if not.  Only a report may go to a device. */
-static bool
-check_place (const char *name, FileKind kind)
-{
-  char *plain = g_canonicalize_filename (name, NULL), *folder = g_path_get_dirname (plain); /* without a last slash */
-  bool  device = cli_is_device (name), good = true;
-
-  if (g_file_test (name, G_FILE_TEST_IS_DIR) &&
-      (((kind == STACK || kind == COMPOSED) && celd_io_stack_kind (name) == CELD_IO_FOLDER) ||
-       ((kind == FRAMES || kind == MOVING || kind == DEFORMED) && celd_io_frames_kind (name) == CELD_IO_PNG_FRAMES)))
-    good = is_empty (name) || cli_error ("Cannot write \"%s\": it is a folder that is not empty.", name);
-  else if (g_file_test (name, G_FILE_TEST_IS_DIR))
-    good = cli_error ("Cannot write \"%s\": it is a folder.", name);
-  else if (device && kind != REPORT)
-    good = cli_error ("Cannot write \"%s\": it is not an ordinary file.", name);
-  else if (!device && g_access (folder, W_OK))
-    good = cli_error ("Cannot write \"%s\" in its folder: %s.", name, g_strerror (errno));
-  g_free (folder);
-  g_free (plain);
-  return good;
-}
-
-/* Checks the files of --maps, whose names are made from the option's value. */
-static bool
-check_maps (const CliOptions *options)
-{
-  bool good = true;
-
-  for (int map = 0; good && options->maps && map < CLI_MAPS; map++)
-    {
-      char *name = cli_map_name (options->maps, map);
-
-      if (cli_same_file (name, options->input) || cli_same_file (name, options->drawing))
-        good = cli_error ("--maps would overwrite %s.", name);
-      good = good && check_place (name, OUTPUT);
-      g_free (name);
-    }
-  return good;
-}
-
-bool
-cli_files_check_places (CliOptions *options)
-{
-  bool good = true;
-
-  for (size_t i = 0; good && i < G_N_ELEMENTS (files); i++)
-    {
-      const char *name = *file_name (options, &files[i]);
-
-      good = !name || files[i].kind < OUTPUT || check_place (name, files[i].kind);
-    }
-  return good && check_maps (options);
+  if (!outputs && !options->maps && !options->labels_dir)
+    return cli_error ("There is nothing to write: give at least one output, such as --%s.", command->output);
+  return cli_outputs_check (options);
 }
 
 void

@@ -207,7 +207,7 @@ cli_options_parse (const CliCommand *command, int argc, char **argv, CliOptions 
     {
       bool later = options->help || options->clip; /* those of a clip are checked for each frame */
 
-      return later || cli_files_check_places (options) ? CLI_DONE : CLI_FAILED;
+      return later || cli_outputs_check_places (options) ? CLI_DONE : CLI_FAILED;
     }
   fprintf (stderr, "'celdepth %s --help' shows its usage.\n", command->name);
   return CLI_USAGE;

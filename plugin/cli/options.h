@@ -28,10 +28,8 @@ void cli_help_print (const CliCommand *command, const CliOptionList *list);
 
 /* Adds each file of a command. */
 void cli_files_append (const CliCommand *command, CliOptions *options, CliOptionList *list);
-/* Whether required files are given, and outputs have different names with endings that can be written. */
+/* Whether required files are given, and outputs have names with endings that can be written, and are no inputs. */
 bool cli_files_check (const CliCommand *command, CliOptions *options);
-/* Whether the outputs can be written there, which is checked before the work begins. */
-bool cli_files_check_places (CliOptions *options);
 void cli_files_clear (CliOptions *options);
 /* Copies all names for one frame of a clip: those of outputs with its number, and those of inputs if they have a #. */
 void cli_files_number (const CliOptions *all, int number, CliOptions *frame);
@@ -44,6 +42,13 @@ void cli_files_number (const CliOptions *all, int number, CliOptions *frame);
 
 /* Has files in place of all names "-". */
 bool cli_files_stream (const CliCommand *command, CliOptions *options);
+
+/* ------------------------------------------------------------------ outputs.c */
+
+/* Whether no output would replace an input or another output; if not, prints which one. */
+bool cli_outputs_check        (const CliOptions *options);
+/* Whether the outputs can be written there, which is checked before the work begins. */
+bool cli_outputs_check_places (const CliOptions *options);
 
 /* ------------------------------------------------------------------ streams.c */
 

@@ -9,8 +9,8 @@
 
 #include <string.h>
 
-static char *
-state_path (const CliPage *page)
+char *
+cli_page_state_path (const CliPage *page)
 {
   char *name = g_strdup_printf (".%s.state.json", page->name);
   char *path = g_build_filename (page->book->folder, name, NULL);
@@ -44,7 +44,7 @@ bool
 cli_page_is_made (const CliPage *page, bool *contradicted)
 {
   const CliBook *book = page->book;
-  char       *path = state_path (page);
+  char       *path = cli_page_state_path (page);
   JsonParser *parser = json_parser_new_immutable ();
   JsonNode   *root = json_parser_load_from_file (parser, path, NULL) ? json_parser_get_root (parser) : NULL;
   JsonObject *state = root && JSON_NODE_HOLDS_OBJECT (root) ? json_node_get_object (root) : NULL;
@@ -67,7 +67,7 @@ cli_page_is_made (const CliPage *page, bool *contradicted)
 bool
 cli_page_write_state (const CliPage *page, bool contradicted)
 {
-  char        *path = state_path (page);
+  char        *path = cli_page_state_path (page);
   JsonBuilder *json = json_builder_new ();
   bool         good;
 
@@ -86,7 +86,7 @@ void
 cli_page_remove_unfinished (const CliPage *page)
 {
   const CliBook *book = page->book;
-  char       *state = state_path (page);
+  char       *state = cli_page_state_path (page);
 
   cli_remove_unfinished (state);
   for (guint i = 0; i < book->results->len; i++)

@@ -8,6 +8,7 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "book.h"
+#include "outputs.h"
 #include "pages.h"
 
 #include <string.h>
@@ -26,16 +27,32 @@ page_name (const char *path)
   return name;
 }
 
-/* Whether results are those of one page each, and no page. */
+/* Whether a file that belongs to a page would replace one that is read; the caller gives up the name. */
+static bool
+check_result (const GHashTable *read, const CliPage *page, char *path)
+{
+  char *identity = cli_file_identity (path);
+  bool  good = !g_hash_table_contains ((GHashTable *) read, identity) ||
+               cli_error ("\"%s\" would be overwritten by a result of \"%s\": give another --output-dir.", path,
+                          page->path);
+
+  g_free (identity);
+  g_free (path);
+  return good;
+}
+
+/* Whether results are those of one page each, and neither a page nor the relations. */
 static bool
 check_names (const CliBook *book)
 {
-  GHashTable *pages = g_hash_table_new_full (g_str_hash, g_str_equal, g_free, NULL);
+  GHashTable *read = g_hash_table_new_full (g_str_hash, g_str_equal, g_free, NULL);
   GHashTable *names = g_hash_table_new (g_str_hash, g_str_equal);
   bool        good = true;
 
   for (size_t i = 0; i < book->n; i++)
-    g_hash_table_add (pages, g_canonicalize_filename (book->page[i].path, NULL));
+    g_hash_table_add (read, cli_file_identity (book->page[i].path));
+  if (book->options.relations_file)
+    g_hash_table_add (read, cli_file_identity (book->options.relations_file));
   for (size_t i = 0; i < book->n && good; i++)
     {
       const CliPage *page = &book->page[i], *other = g_hash_table_lookup (names, page->name);
@@ -45,19 +62,12 @@ check_names (const CliBook *book)
                           page->path);
       g_hash_table_insert (names, page->name, (gpointer) page);
       for (guint k = 0; k < book->results->len && good; k++)
-        {
-          char *path = cli_book_result_path (book, page->name, &g_array_index (book->results, CliResult, k));
-          char *full = g_canonicalize_filename (path, NULL);
-
-          if (g_hash_table_contains (pages, full))
-            good = cli_error ("\"%s\" would be overwritten by a result of \"%s\": give another --output-dir.", path,
-                              page->path);
-          g_free (full);
-          g_free (path);
-        }
+        good = check_result (read, page, cli_book_result_path (book, page->name,
+                                                               &g_array_index (book->results, CliResult, k)));
+      good = good && check_result (read, page, cli_page_state_path (page));
     }
   g_hash_table_destroy (names);
-  g_hash_table_destroy (pages);
+  g_hash_table_destroy (read);
   return good;
 }
 

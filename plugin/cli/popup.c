@@ -4,16 +4,11 @@
  */
 #include "options.h"
 
-#include <errno.h>
-#include <glib/gstdio.h>
-
 static bool
 check (CliOptions *options)
 {
   if (options->watch && options->output_dir)
     return cli_error ("--watch shows one page: leave out --output-dir.");
-  if (options->output_dir && g_mkdir_with_parents (options->output_dir, 0777))
-    return cli_error ("Cannot make the folder \"%s\": %s.", options->output_dir, g_strerror (errno));
   if (options->compositing && !options->layers)
     return cli_error ("--compositing is about --layers, which is missing.");
   if (!cli_compositing_check (options))

@@ -6,11 +6,9 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
-#include "options.h"
+#include "outputs.h"
 #include "propagate.h"
 
-#include <errno.h>
-#include <glib/gstdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -241,11 +239,28 @@ run_parts (Work *w)
 
 /* ------------------------------------------------------------------ outputs */
 
+/* Whether a result of the clip would replace a frame or another file that is read. */
 static bool
-make_folder (const char *path)
+check_outputs (const CliMotion *motion)
 {
-  return !path || !g_mkdir_with_parents (path, 0777) ||
-         cli_error ("Cannot make the folder \"%s\": %s.", path, g_strerror (errno));
+  const CliOptions *o = motion->options;
+  char             *relations = g_build_filename (o->labels_dir, "relations.txt", NULL);
+  char             *description = g_build_filename (o->labels_dir, CLI_CLIP_FILE, NULL);
+  CliTouched        touched;
+  bool              good;
+
+  cli_touched_begin (&touched);
+  cli_touched_reads_all (&touched, o);
+  for (size_t i = 0; i < motion->frames.n; i++)
+    cli_touched_reads (&touched, NULL, motion->frames.frame[i].path);
+  good = cli_touched_writes_all (&touched, o) && cli_touched_writes (&touched, "labels-dir", relations) &&
+         cli_touched_writes (&touched, "labels-dir", description);
+  for (size_t i = 0; i < motion->frames.n && good; i++)
+    good = cli_frame_touches (motion, i, &touched);
+  cli_touched_end (&touched);
+  g_free (relations);
+  g_free (description);
+  return good;
 }
 
 static bool
@@ -307,14 +322,17 @@ write_slurm (const Work *w, const char *path)
 
 /* ------------------------------------------------------------------ the command */
 
-static bool
+/* The exit code; that of contradictions is found by the caller. */
+static int
 propagate (const CliOptions *options, CliMotion *motion, CliRun *run)
 {
   Work w = { .motion = motion, .run = run, .chains = g_array_new (FALSE, FALSE, sizeof (Chain)),
              .blends = g_array_new (FALSE, FALSE, sizeof (Blend)) };
   bool good = cli_sequence_find (options->inputs, g_strv_length (options->inputs), &motion->frames) &&
               take_keys (motion);
+  int  code = good && !check_outputs (motion) ? CLI_USAGE : CLI_FAILED;
 
+  good = good && code == CLI_FAILED;
   if (good)
     plan (&w);
   if (good && options->part > (int) w.n_parts)
@@ -328,7 +346,7 @@ propagate (const CliOptions *options, CliMotion *motion, CliRun *run)
             (write_clip (motion) && (!options->review || cli_review_write (options->review, motion))));
   g_array_free (w.chains, TRUE);
   g_array_free (w.blends, TRUE);
-  return good;
+  return good ? CLI_DONE : code;
 }
 
 static int
@@ -336,7 +354,7 @@ run_propagate (const CliOptions *options)
 {
   CliMotion motion = { .options = options };
   CliRun    run;
-  int       code = CLI_FAILED;
+  int       code;
   GString  *stages = g_string_new (NULL);
 
   for (char **key = options->keys; key && *key; key++)
@@ -344,8 +362,9 @@ run_propagate (const CliOptions *options)
   g_string_append_printf (stages, "frames*%u", g_strv_length (options->inputs));
   cli_run_begin (&run, options, stages->str);
   g_string_free (stages, TRUE);
-  if (propagate (options, &motion, &run))
-    code = motion.order.n_cycles ? CLI_CONTRADICTED : CLI_DONE;
+  code = propagate (options, &motion, &run);
+  if (code == CLI_DONE && motion.order.n_cycles)
+    code = CLI_CONTRADICTED;
   cli_keys_clear (&motion);
   cli_sequence_clear (&motion.frames);
   cli_run_end (&run);
@@ -365,7 +384,7 @@ check (CliOptions *options)
     return cli_error ("There are more --arrows than --key.");
   if (!options->labels_dir)
     return cli_error ("--labels-dir is missing.");
-  return make_folder (options->labels_dir) && make_folder (options->depth_dir);
+  return true;
 }
 
 const CliCommand cli_propagate_command = {

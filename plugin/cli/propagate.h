@@ -14,6 +14,7 @@
 #ifndef CLI_PROPAGATE_H
 #define CLI_PROPAGATE_H
 
+#include "outputs.h"
 #include "sequence.h"
 
 /* ------------------------------------------------------------------ clip-keys.c */
@@ -97,6 +98,8 @@ bool cli_frame_take_notes (const CliMotion *motion, const CeldLabels *before, co
 char *cli_frame_path (const CliMotion *motion, const char *result, size_t frame, const CliKey *side);
 /* Removes what a run that was killed left of a frame or side; no other chain writes there. */
 void  cli_frame_remove_unfinished (const CliMotion *motion, size_t frame, const CliKey *side);
+/* Notes that the results of a frame are written; false with a message if one is read, too. */
+bool  cli_frame_touches (const CliMotion *motion, size_t frame, CliTouched *touched);
 /* Whether all files of a frame or side are there. */
 bool  cli_frame_is_complete (const CliMotion *motion, size_t frame, const CliKey *side);
 /* Reads certainty and notes of the frame or side that the state names, if it was written with this fingerprint (NULL:
@@ -114,6 +117,8 @@ bool cli_frame_doubt (const CliMotion *motion, const CeldHost *host, const CliFr
 
 /* ------------------------------------------------------------------ review.c */
 
+/* The name of the picture of a review: that of its JSON file with another ending; free with g_free. */
+char *cli_review_sheet_name (const char *path);
 /* Writes the frames and regions to look at as JSON, and beside it a picture of them. */
 bool cli_review_write (const char *path, const CliMotion *motion);
 

@@ -171,9 +171,8 @@ write_sheet (const char *path, const CliMotion *motion, const CliFrameState *sta
 
 /* ------------------------------------------------------------------ */
 
-/* The name of the picture: that of the JSON file with another ending. */
-static char *
-sheet_name (const char *path)
+char *
+cli_review_sheet_name (const char *path)
 {
   char *stem = g_str_has_suffix (path, ".json") ? g_strndup (path, strlen (path) - 5) : g_strdup (path);
   char *name = g_strconcat (stem, ".png", NULL);
@@ -199,7 +198,7 @@ bool
 cli_review_write (const char *path, const CliMotion *motion)
 {
   CliFrameState *state = g_new0 (CliFrameState, motion->frames.n);
-  char          *sheet = sheet_name (path);
+  char          *sheet = cli_review_sheet_name (path);
   size_t         n = 0;
   bool           good;
 

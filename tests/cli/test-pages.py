@@ -52,6 +52,11 @@ class Pages(Test):
         self.celdepth('popup', self.page('a.ora'), '--output-dir=out', '--relations', RELATIONS)
         self.assertEqual(sorted(self.times()), ['a-depth.png', 'a-shaded.png'])
 
+    def test_no_folder(self):
+        """A folder that cannot be made is a failure, as any other place where nothing can be written."""
+        self.page('a.ora')
+        self.fails('popup', 'a.ora', '--output-dir', 'drawing.png', naming='Cannot make the folder "drawing.png"')
+
     def test_resuming(self):
         """What is finished is kept, unless its page, the settings or the relations have changed or a result is gone."""
         def run(*more, made):

@@ -178,8 +178,8 @@ class Shade(Test):
             with self.subTest(words):
                 self.assertIn(naming, self.shade('--normals', 'n.npy', *words, code=2))
         os.rename(self.path('sprite.png'), self.path('hero_n.png'))
-        self.assertIn('overwrite', self.celdepth('shade', 'levels.npy', '--drawing', 'hero_n.png', '--maps', 'hero.png',
-                                                 code=1))
+        self.assertIn('name the same file', self.celdepth('shade', 'levels.npy', '--drawing', 'hero_n.png', '--maps',
+                                                          'hero.png', code=2))
 
 
 if __name__ == '__main__':
