@@ -40,7 +40,7 @@ struct CliBook
  * with a message. */
 bool  cli_book_sort_words   (CliBook *book, const CliCommand *command, int argc, char **argv, GPtrArray *words);
 void  cli_book_add_result   (CliBook *book, const char *option, const char *ending);
-/* Parses the command line as that of a page whose name cannot be a real one's; the exit code.  Leaves in `words` the
+/* Parses the command line as that of a page called PAGE; the exit code.  Leaves in `words` the
  * command and the pages alone. */
 int   cli_book_parse        (CliBook *book, const CliCommand *command, GPtrArray *words);
 /* The file of a result of the page of this name; free with g_free. */

@@ -5,12 +5,15 @@
 #include "pages.h"
 #include "sequence.h"
 
+#include <errno.h>
+#include <fcntl.h>
 #include <glib/gi18n.h>
 #include <locale.h>
 #ifdef __GLIBC__
 #include <malloc.h>
 #endif
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 static const CliCommand *const commands[] = {
@@ -79,32 +82,32 @@ run_command (const CliCommand *command, int argc, char **argv)
   return code;
 }
 
-int
-main (int argc, char **argv)
+/* Answers "help", with what follows it. */
+static int
+help (int argc, char **argv)
+{
+  char *words[] = { argc > 2 ? argv[2] : NULL, "--help", NULL };
+
+  if (argc > 3)
+    {
+      cli_say ("Give one command to help: celdepth help %s.", find_command (argv[2]) ? argv[2] : "popup");
+      return CLI_USAGE;
+    }
+  if (argc > 2 && strcmp (argv[2], "--help") != 0 && strcmp (argv[2], "-h") != 0)
+    return find_command (argv[2]) ? run_command (find_command (argv[2]), 2, words) : refuse (argv[2]);
+  print_help (stdout);
+  return CLI_DONE;
+}
+
+static int
+run_words (int argc, char **argv)
 {
   const char *word = argc > 1 ? argv[1] : "";
 
-#ifdef __GLIBC__
-  /* Returns pictures to the system when they are freed.  Otherwise glibc raises this threshold and keeps large blocks:
-   * up to 50 bytes per pixel more (measured). */
-  mallopt (M_MMAP_THRESHOLD, 1 << 20);
-#endif
-  /* The locale is for file names and messages only; numbers have a decimal point in any locale. */
-  setlocale (LC_CTYPE, "");
-  bindtextdomain ("celdepth", CELD_LOCALE_FOLDER);
-  bind_textdomain_codeset ("celdepth", "UTF-8");
-  textdomain ("celdepth");
-  if (!strcmp (word, "help") && argc > 2)
-    {
-      char *help[] = { argv[2], "--help", NULL };
-
-      return find_command (argv[2]) ? run_command (find_command (argv[2]), 2, help) : refuse (argv[2]);
-    }
-  if (!strcmp (word, "--help") || !strcmp (word, "-h") || !strcmp (word, "help"))
-    {
-      print_help (stdout);
-      return CLI_DONE;
-    }
+  if (!strcmp (word, "help"))
+    return help (argc, argv);
+  if (!strcmp (word, "--help") || !strcmp (word, "-h"))
+    return help (1, argv);
   if (!strcmp (word, "--version"))
     {
       puts ("celdepth " CELDEPTH_VERSION);
@@ -116,4 +119,39 @@ main (int argc, char **argv)
       return run_command (find_command (word), argc - 1, argv + 1);
     }
   return refuse (word);
+}
+
+/* Opens standard input, output and error where the caller has closed them, so that no other file gets their numbers.
+ * None can be used: reading and writing fails. */
+static void
+open_standard_files (void)
+{
+  for (int number = 0; number < 3; number++)
+    if (fcntl (number, F_GETFD) < 0 && open ("/dev/null", number ? O_RDONLY : O_WRONLY) != number)
+      exit (CLI_FAILED);
+}
+
+int
+main (int argc, char **argv)
+{
+  int code;
+
+  open_standard_files ();
+#ifdef __GLIBC__
+  /* Returns pictures to the system when they are freed.  Otherwise glibc raises this threshold and keeps large blocks:
+   * up to 50 bytes per pixel more (measured). */
+  mallopt (M_MMAP_THRESHOLD, 1 << 20);
+#endif
+  /* The locale is for file names and messages only; numbers have a decimal point in any locale. */
+  setlocale (LC_CTYPE, "");
+  bindtextdomain ("celdepth", CELD_LOCALE_FOLDER);
+  bind_textdomain_codeset ("celdepth", "UTF-8");
+  textdomain ("celdepth");
+  code = run_words (argc, argv);
+  if (code == CLI_DONE && (fflush (stdout) || ferror (stdout)))
+    {
+      cli_say ("Cannot write standard output: %s.", g_strerror (errno));
+      code = CLI_FAILED;
+    }
+  return code;
 }

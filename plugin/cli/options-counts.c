@@ -35,8 +35,10 @@ static const CountOption counts[] = {
     "the longest side of a .gif in pixels; larger ones are scaled down (default: 640)" },
   { "fps", 0, CLI_STEREO | CLI_WIGGLE | CLI_DEFORM | CLI_INBETWEEN, MEMBER (fps), 1, 50, 12, "Output", "1-50",
     "pictures per second of a .gif (default: 12)" },
-  { "jobs", 0, CLI_PROPAGATE | CLI_POPUP, MEMBER (jobs), 1, 1024, 0, "Other", "1-1024",
-    "the number of chains of frames, or of pages, to make at the same time (default: the number of processors)" },
+  { "jobs", 0, CLI_PROPAGATE, MEMBER (jobs), 1, 1024, 0, "Other", "1-1024",
+    "the number of chains of frames to make at the same time (default: the number of processors)" },
+  { "jobs", 0, CLI_POPUP, MEMBER (jobs), 1, 1024, 0, "Other", "1-1024",
+    "with --output-dir, the number of pages to make at the same time (default: the number of processors)" },
   { "part", 0, CLI_PROPAGATE, MEMBER (part), 1, CELD_MAX_SIDE, 0, "Other", "1-20000",
     "make one chain only: those of the first key come first; run the command without --part when all are made" },
 };

@@ -19,6 +19,9 @@ typedef struct
 
 #define MEMBER(name) offsetof (CliOptions, name)
 
+#define FORMAT \
+  "the format of a result that is written to standard output (-), by the ending that its file would have (default: "
+
 static const FileOption files[] = {
   { "clip", CLI_SHADE | CLI_ENHANCE | CLI_LAYERS | FROM_THE_SIDE | CLI_RELIEF, 0, TEXT, MEMBER (clip), "FOLDER",
     "work on each frame of a clip that propagate has written (--labels-dir), instead of one input; outputs get the "
@@ -143,9 +146,14 @@ static const FileOption files[] = {
   { "output", CLI_INBETWEEN, CLI_INBETWEEN, MOVING, MEMBER (between), "OUT",
     "write the drawings between: .png, .exr, .tif or .npy, with a # for each digit of the number; or with the keys: .gif, "
     "or a folder of PNG files" },
-  { "format", ~CLI_PROPAGATE, 0, HOW, MEMBER (format), "ENDING",
-    "the format of a result that is written to standard output (-), by the ending that its file would have (default: "
-    "png, but ora for layers, gif for animations, glb for meshes)" },
+  { "format", CLI_POPUP, 0, HOW, MEMBER (format), "ENDING", FORMAT "png, but ora for layers)" },
+  { "format", CLI_LAYERS, 0, HOW, MEMBER (format), "ENDING", FORMAT "ora)" },
+  { "format", CLI_STEREO, 0, HOW, MEMBER (format), "ENDING", FORMAT "png, but gif for a sequence)" },
+  { "format", CLI_WIGGLE, 0, HOW, MEMBER (format), "ENDING", FORMAT "gif)" },
+  { "format", CLI_RELIEF, 0, HOW, MEMBER (format), "ENDING", FORMAT "png, but glb for meshes)" },
+  { "format", CLI_REGISTER, 0, HOW, MEMBER (format), "ENDING", FORMAT "png, but npy for displacements)" },
+  { "format", ~(CLI_POPUP | CLI_LAYERS | FROM_THE_SIDE | CLI_RELIEF | CLI_REGISTER | CLI_PROPAGATE), 0, HOW,
+    MEMBER (format), "ENDING", FORMAT "png)" },
   { "report", WITH_LAYERS | CLI_ORDER, 0, REPORT, MEMBER (report), "OUT",
     "write a report of regions, relations and problems, as JSON" },
   { "report", CLI_PROPAGATE, 0, REPORT, MEMBER (review), "OUT",
@@ -164,15 +172,41 @@ is_text (CliFileKind kind)
   return kind == TEXT || kind == HOW;
 }
 
+/* Appends relations below those of the same option before. */
+static gboolean
+take_relations (const char *name, const char *text, gpointer data, GError **error)
+{
+  CliOptions *options = data;
+  char       *before = options->relations;
+
+  (void) name;
+  (void) error;
+  options->relations = before ? g_strconcat (before, "\n", text, NULL) : g_strdup (text);
+  g_free (before);
+  return TRUE;
+}
+
+static GOptionEntry
+entry_of (CliOptions *options, const FileOption *file)
+{
+  GOptionEntry entry = { file->name, 0, 0, is_text (file->kind) ? G_OPTION_ARG_STRING : G_OPTION_ARG_FILENAME,
+                         file_name (options, file), file->help, file->value };
+
+  if (file->offset == MEMBER (relations))
+    {
+      entry.arg      = G_OPTION_ARG_CALLBACK;
+      entry.arg_data = (gpointer) take_relations;
+    }
+  return entry;
+}
+
 void
 cli_files_append (const CliCommand *command, CliOptions *options, CliOptionList *list)
 {
   for (int output = 0; output < 2; output++)
     for (size_t i = 0; i < G_N_ELEMENTS (files); i++)
       if (files[i].steps & (int) command->step && (files[i].kind >= HOW) == output)
-        cli_list_add (list, output ? "Output" : "Input", (GOptionEntry) {
-          files[i].name, 0, 0, is_text (files[i].kind) ? G_OPTION_ARG_STRING : G_OPTION_ARG_FILENAME,
-          file_name (options, &files[i]), files[i].help, files[i].value });
+        cli_list_add (list, output ? "Output" : "Input", entry_of (options, &files[i]));
 }
 
 const char *
@@ -232,9 +266,11 @@ cli_files_number (const CliOptions *all, int number, CliOptions *frame)
   for (size_t i = 0; i < G_N_ELEMENTS (files); i++)
     {
       const char *name = *file_name ((CliOptions *) all, &files[i]);
+      bool        copied = *file_name (frame, &files[i]) != name; /* some rows share one */
       bool        counts = name && !is_text (files[i].kind) && (files[i].kind != INPUT || strchr (name, '#'));
 
-      *file_name (frame, &files[i]) = counts ? cli_file_numbered (name, number) : g_strdup (name);
+      if (!copied)
+        *file_name (frame, &files[i]) = counts ? cli_file_numbered (name, number) : g_strdup (name);
     }
 }
 
@@ -248,6 +284,8 @@ ending_of (const FileOption *file, const char *format)
     return NULL;
   if (format)
     return format;
+  if (file->offset == MEMBER (displacement)) /* a PNG cannot have it */
+    return "npy";
   return file->kind == STACK ? "ora" : file->kind == MESH ? "glb" : file->kind == FRAMES ? "gif" : "png";
 }
 
@@ -338,5 +376,5 @@ void
 cli_files_clear (CliOptions *options)
 {
   for (size_t i = 0; i < G_N_ELEMENTS (files); i++)
-    g_free (*file_name (options, &files[i]));
+    g_clear_pointer (file_name (options, &files[i]), g_free); /* some rows share one */
 }

@@ -110,12 +110,23 @@ read_choice (const CeldSettingInfo *row, const char *text, double *value)
   return false;
 }
 
+bool
+cli_switch_read (const char *text, bool *on)
+{
+  bool yes = !strcmp (text, "yes") || !strcmp (text, "true"), no = !strcmp (text, "no") || !strcmp (text, "false");
+
+  *on = yes || (*on && !no);
+  return yes || no;
+}
+
 /* A switch without a value is on. */
 static bool
 read_switch (const char *text, double *value)
 {
-  *value = !text || !strcmp (text, "yes") || !strcmp (text, "true");
-  return *value != 0 || !strcmp (text, "no") || !strcmp (text, "false");
+  bool on = true, good = !text || cli_switch_read (text, &on);
+
+  *value = on;
+  return good;
 }
 
 static bool
@@ -160,7 +171,7 @@ allowed (const CeldSettingInfo *row)
         g_string_append_printf (words, "%s%s", !i ? "" : i + 1 < row->choices ? ", " : " or ", row->choice[i].nick);
       break;
     case CELD_SETTING_SWITCH:
-      g_string_append (words, "yes or no");
+      g_string_append (words, "yes, no, true or false");
       break;
     case CELD_SETTING_COLOUR:
       g_string_append (words, "a colour such as #ff8000");
@@ -177,12 +188,9 @@ allowed (const CeldSettingInfo *row)
 static void
 refuse (const CeldSettingInfo *row, const char *name, const char *text, GError **error)
 {
-  char       *words = allowed (row), *end;
-  bool        number = (g_ascii_strtod (text, &end), end != text && !*end && row->least < row->most);
-  const char *quote = number && row->type != CELD_SETTING_COLOUR ? "" : "'";
+  char *words = allowed (row);
 
-  g_set_error (error, G_OPTION_ERROR, G_OPTION_ERROR_BAD_VALUE, "%s must be %s, not %s%s%s.", name, words, quote, text,
-               quote);
+  g_set_error (error, G_OPTION_ERROR, G_OPTION_ERROR_BAD_VALUE, "%s must be %s, not '%s'.", name, words, text);
   g_free (words);
 }
 

@@ -31,26 +31,40 @@ say_error (const GError *error, const CliOptionList *list)
   g_free (names);
 }
 
-/* ------------------------------------------------------------------ missing values */
+/* ------------------------------------------------------------------ words */
 
-/* The option of a word such as "--depth" or "-n"; NULL: it is none, or has its value after "=". */
+/* The option of a word such as "--depth", "--depth=OUT" or "-n"; NULL: it is none. */
 static const GOptionEntry *
 find_option (const CliOptionList *list, const char *word)
 {
+  size_t n = word[0] == '-' && word[1] == '-' ? strcspn (word + 2, "=") : 0;
+
   for (guint i = 0; word[0] == '-' && i < list->entries->len; i++)
     {
       const GOptionEntry *entry = &g_array_index (list->entries, GOptionEntry, i);
 
-      if (word[1] == '-' ? !strcmp (entry->long_name, word + 2) : (word[1] && entry->short_name == word[1] && !word[2]))
+      if (word[1] == '-' ? strlen (entry->long_name) == n && !strncmp (entry->long_name, word + 2, n)
+                         : (word[1] && entry->short_name == word[1] && !word[2]))
         return entry;
     }
   return NULL;
 }
 
+/* Whether the word after that of an option must be its value. */
 static bool
-needs_value (const GOptionEntry *entry)
+needs_value (const GOptionEntry *entry, const char *word)
 {
-  return entry->arg != G_OPTION_ARG_NONE && !(entry->flags & G_OPTION_FLAG_OPTIONAL_ARG);
+  return entry->arg != G_OPTION_ARG_NONE && !(entry->flags & G_OPTION_FLAG_OPTIONAL_ARG) &&
+         !(word[1] == '-' && strchr (word, '='));
+}
+
+/* Switches that are no settings may, since scripts of propagate add --quiet to any command. */
+static bool
+may_repeat (const GOptionEntry *entry)
+{
+  return entry->arg == G_OPTION_ARG_NONE || entry->arg == G_OPTION_ARG_STRING_ARRAY ||
+         entry->arg == G_OPTION_ARG_FILENAME_ARRAY ||
+         !strcmp (entry->long_name, "relations");
 }
 
 /* Is a word an option, and no value?  Negative numbers and "-" are values. */
@@ -60,8 +74,8 @@ is_option (const char *word)
   return word[0] == '-' && (word[1] == '-' || g_ascii_isalpha (word[1]));
 }
 
-/* Whether each option that needs a value has one; if not, prints which one lacks it.  An option never takes the next
- * one for its value. */
+/* Whether each option that needs a value has one, and none has two; if not, prints which one.  An option never takes
+ * the next one for its value. */
 static bool
 check_values (const CliOptionList *list, int argc, char **argv)
 {
@@ -69,7 +83,10 @@ check_values (const CliOptionList *list, int argc, char **argv)
     {
       const GOptionEntry *entry = find_option (list, argv[i]);
 
-      if (!entry || !needs_value (entry))
+      for (int k = 1; entry && !may_repeat (entry) && k < i; k++)
+        if (find_option (list, argv[k]) == entry)
+          return cli_error ("--%s is given twice.", entry->long_name);
+      if (!entry || !needs_value (entry, argv[i]))
         continue;
       if (i + 1 == argc)
         return cli_error ("%s needs a value: %s %s.", argv[i], argv[i], entry->arg_description);
@@ -78,6 +95,38 @@ check_values (const CliOptionList *list, int argc, char **argv)
                           entry->arg_description, argv[i + 1]);
       i++;
     }
+  return true;
+}
+
+/* GOption knows switches that take a value or none, but gives them the next word, which may be a page.  Those that are
+ * no settings are therefore looked at before: one that is on stays without a value, one that is off is removed.  False
+ * with a message. */
+static bool
+take_switches (const CliOptionList *list, int *argc, char **argv)
+{
+  int n = 1, i = 1;
+
+  for (; i < *argc && strcmp (argv[i], "--") != 0; i++)
+    {
+      const GOptionEntry *entry = find_option (list, argv[i]);
+      char               *value = strchr (argv[i], '=');
+      bool                on = true;
+
+      if (entry && entry->arg == G_OPTION_ARG_NONE && value)
+        {
+          if (!cli_switch_read (value + 1, &on))
+            return cli_error ("--%s must be yes, no, true or false, not '%s'.", entry->long_name, value + 1);
+          *value = 0;
+        }
+      argv[n] = argv[i];
+      if (entry && entry->arg == G_OPTION_ARG_NONE && !value && i + 1 < *argc && cli_switch_read (argv[i + 1], &on))
+        i++;
+      n += on;
+    }
+  while (i < *argc)
+    argv[n++] = argv[i++];
+  argv[n] = NULL;
+  *argc   = n;
   return true;
 }
 
@@ -147,7 +196,8 @@ parse (const CliCommand *command, int *argc, char ***argv, CliOptions *options)
     "show progress also where standard error is no terminal, for programs that run celdepth", NULL });
   cli_list_add (&list, "Other", (GOptionEntry) {
     "help", 'h', 0, G_OPTION_ARG_NONE, &flags.help, "print this text", NULL });
-  good = check_values (&list, *argc, *argv) && parse_words (&list, argc, argv, options);
+  good = check_values (&list, *argc, *argv) && take_switches (&list, argc, *argv) &&
+         parse_words (&list, argc, argv, options);
   if (good && flags.help)
     cli_help_print (command, &list);
   options->help     = flags.help;
@@ -158,6 +208,25 @@ parse (const CliCommand *command, int *argc, char ***argv, CliOptions *options)
   g_array_free (list.entries, TRUE);
   g_ptr_array_free (list.sections, TRUE);
   return good;
+}
+
+/* What is said of a command's input, by the first word that --help has for it. */
+static const struct { const char *input, *missing, *number; } inputs[] = {
+  { "DRAWING", "The drawing is missing", "one drawing" }, { "LEVELS", "The levels are missing", "one file of levels" },
+  { "LABELS", "The regions are missing", "one picture of regions" }, { "SCENE", "The scene is missing", "one scene" },
+  { "FRAMES", "The frames are missing", NULL }, { "FIRST", "The first drawing is missing", NULL },
+  { "SECOND", "The second drawing is missing", "two drawings" },
+  { "TARGET", "The second drawing is missing", "two drawings" },
+};
+
+static size_t
+input_of (const char *name)
+{
+  size_t i = 0;
+
+  while (i + 1 < G_N_ELEMENTS (inputs) && !g_str_has_prefix (name, inputs[i].input))
+    i++;
+  return i;
 }
 
 /* Takes over the words that are not options. */
@@ -172,9 +241,10 @@ check_input (const CliCommand *command, int argc, char **argv, CliOptions *optio
     return cli_error ("A clip has a drawing and regions for each frame: leave out --drawing, --scribbles and "
                       "--regions.");
   if (!options->clip && (argc < 2 || (argc < 3 && command->second)))
-    return cli_error ("%s is missing.", argc < 2 ? command->input : command->second);
+    return cli_error ("%s.", inputs[input_of (argc < 2 ? command->input : command->second)].missing);
   if (!many && argc > (command->second ? 3 : 2))
-    return cli_error ("There is more than one %s.", command->second ? command->second : command->input);
+    return cli_error ("Give %s%s.", inputs[input_of (command->second ? command->second : command->input)].number,
+                      command->step == CLI_POPUP ? ", or --output-dir for many pages" : "");
   options->input  = g_strdup (argv[1]);
   options->target = argc > 2 ? g_strdup (argv[2]) : NULL;
   options->inputs = g_strdupv (argv + 1);

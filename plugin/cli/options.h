@@ -64,6 +64,8 @@ void cli_settings_append (const CliCommand *command, CliOptions *options, CliOpt
 /* After parsing: sets what the chosen preset says of settings that were not given. */
 void cli_settings_complete (CliOptions *options);
 void cli_settings_clear (CliOptions *options);
+/* Reads yes, no, true or false; false: it is none of these, and *on stays as it is. */
+bool cli_switch_read (const char *text, bool *on);
 
 /* ------------------------------------------------------------------ options-clip.c */
 

@@ -124,7 +124,7 @@ cli_book_parse (CliBook *book, const CliCommand *command, GPtrArray *words)
   GPtrArray *named = g_ptr_array_new_with_free_func (g_free);
   int        code;
 
-  cli_book_name_results (book, ".page", named);
+  cli_book_name_results (book, "PAGE", named); /* as --help calls it, for messages */
   for (guint i = 0; i < named->len; i++)
     g_ptr_array_insert (words, 1, named->pdata[i]);
   code = cli_options_parse (command, (int) words->len, (char **) words->pdata, &book->options);

@@ -73,7 +73,7 @@ check_moved (Registration *r, CeldStatus status)
   if (status != CELD_NOTHING_TO_GO_BY)
     return cli_run_finish (&r->run, status);
   cli_run_stage (&r->run, NULL);
-  return cli_error ("\"%s\" or \"%s\" is blank.", r->options->input, r->options->target);
+  return cli_error ("\"%s\" is blank.", celd_ink_has_lines (&r->ink[0]) ? r->options->target : r->options->input);
 }
 
 static bool

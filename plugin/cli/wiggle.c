@@ -43,7 +43,7 @@ const CliCommand cli_wiggle_command = {
   .name     = "wiggle",
   .step     = CLI_WIGGLE,
   .input    = "DRAWING|LAYERED",
-  .summary  = "Makes an animation of a camera that moves in front of the drawing, which shows its depth.",
+  .summary  = "Makes an animation of a camera that moves in front of a drawing and shows its depth.",
   .examples = "  celdepth wiggle bee.png --scribbles strokes.png --arrows arrows.png --output bee.gif\n"
               "  celdepth wiggle page.psd --path circle --frames 48 --output frames      (a folder of PNG files)",
   .settings = CLI_SETTINGS_OF_LABELS CLI_SETTINGS_OF_SCENES " path disparity convergence",

@@ -126,7 +126,7 @@ class Inbetween(Test):
         self.assertIn('must be a whole number between 1 and 10000', self.inbetween('-n', '0', '--output', 'x.png', code=2))
         self.assertIn('--output is missing', self.inbetween(code=2))
         self.assertIn('must end in', self.inbetween('--output', 'x.doc', code=2))
-        self.assertIn('SECOND is missing', self.celdepth('inbetween', 'a.png', '--output', 'x.png', code=2))
+        self.assertIn('The second drawing is missing', self.celdepth('inbetween', 'a.png', '--output', 'x.png', code=2))
         Image.new('L', (30, 30), 255).save(self.path('small.png'))
         self.fails('inbetween', 'a.png', 'small.png', '--scribbles', 'a-strokes.png', '--output', 'x.png',
                    naming='pixels')

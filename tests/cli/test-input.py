@@ -307,7 +307,7 @@ class Drawings(Test):
             drawing().save(self.path(name))
             words = '--scribbles', 'scribbles.png', '--labels', 'l.png', '--', name
             self.celdepth('segment', *words)
-        self.assertIn('is missing', self.celdepth('segment', *words[:-1], code=2))
+        self.assertIn('The drawing is missing.', self.celdepth('segment', *words[:-1], code=2))
 
     def test_one_pixel_wide(self):
         Image.new('L', (1, 8), 255).save(self.path('line.png'))

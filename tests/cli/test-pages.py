@@ -56,6 +56,8 @@ class Pages(Test):
         """A folder that cannot be made is a failure, as any other place where nothing can be written."""
         self.page('a.ora')
         self.fails('popup', 'a.ora', '--output-dir', 'drawing.png', naming='Cannot make the folder "drawing.png"')
+        text = self.celdepth('popup', 'a.ora', '--output-dir', 'out', '--depth=jpg', code=2)
+        self.assertIn('--depth out/PAGE-depth.jpg: the name must end in', text)
 
     def test_resuming(self):
         """What is finished is kept, unless its page, the settings or the relations have changed or a result is gone."""

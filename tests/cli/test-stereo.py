@@ -18,7 +18,8 @@ from pictures import HEIGHT, IN_B, RELATIONS, WIDTH, Test
 
 class Stereo(Test):
     def stereo(self, *words, code=0):
-        return self.celdepth('stereo', 'drawing.png', '--scribbles', 'scribbles.png', '--relations', RELATIONS, *words,
+        relations = () if '--relations' in words else ('--relations', RELATIONS)
+        return self.celdepth('stereo', 'drawing.png', '--scribbles', 'scribbles.png', *relations, *words,
                              code=code)
 
     def edge(self, name):

@@ -21,7 +21,7 @@ STEPS = ('popup', 'segment', 'order', 'expand', 'smooth', 'shade', 'enhance', 'e
 # Names that mean the same in every command, in words of the command's own.
 OWN_WORDS = {'output': 'what the command makes', 'frames': 'the number of pictures',
              'scribbles': 'of the drawing, or of each key', 'arrows': 'of the drawing, or of each key',
-             'report': 'what was found, as JSON'}
+             'report': 'what was found, as JSON', 'jobs': 'how much is made at the same time'}
 
 
 class Usage(Test):
@@ -42,9 +42,11 @@ class Usage(Test):
         self.wrong('draw', naming="'draw'")
         for step in STEPS:
             with self.subTest(step):
-                self.wrong(step, naming='is missing')
+                self.assertRegex(self.celdepth(step, code=2), 'The .* (is|are) missing')
                 self.wrong(step, 'a.png', '--nonsense', naming='--nonsense')
-        self.wrong('popup', 'a.png', 'b.png', '--depth', 'c.png', naming='more than one')
+        self.wrong('popup', 'a.png', 'b.png', '--depth', 'c.png', naming='Give one drawing, or --output-dir for many pages.')
+        self.wrong('shade', 'a.png', 'b.png', '--shaded', 'c.png', naming='Give one file of levels.')
+        self.wrong('register', 'a.png', 'b.png', 'c.png', '--warped', 'd.png', naming='Give two drawings.')
         self.wrong('popup', 'a.png', naming='nothing to write')
         self.wrong('segment', 'a.png', naming='such as --labels')
         self.wrong('enhance', 'a.npy', naming='such as --enhanced')
@@ -64,9 +66,9 @@ class Usage(Test):
         return options
 
     def test_lines_of_help(self):
-        for step in STEPS:
-            for line in self.celdepth(step, '--help').splitlines():
-                self.assertLessEqual(len(line), 100, f'{step}: {line}')
+        for words in [(step, '--help') for step in STEPS] + [('help',)]:
+            for line in self.celdepth(*words).splitlines():
+                self.assertLessEqual(len(line), 100, f'{words}: {line}')
 
     def test_each_name_has_one_meaning(self):
         meant = {}
@@ -108,11 +110,43 @@ class Usage(Test):
             closed[value] = self.picture('closures.png').max() > 0
         self.assertEqual(closed, {'yes': True, 'true': True, 'no': False, 'false': False, None: True})
 
+    def test_switches_that_are_no_settings(self):
+        """They have the same values, but the word after one may be a page."""
+        words = 'flat.npy', '--view', 'v.png'
+        np.save(self.path('flat.npy'), np.full((64, 96), 2, np.float32))
+        warned = self.celdepth('enhance', *words)
+        self.assertIn('everywhere', warned)
+        for value in ('--quiet=no', '--quiet=false', '--quiet no'):
+            self.assertEqual(self.celdepth('enhance', *words, *value.split()), warned)
+        for value in ('--quiet=yes', '--quiet=true', '--quiet yes', '--quiet', '-q'):
+            self.assertEqual(self.celdepth('enhance', *value.split(), *words), '', value)
+        self.popup('--depth', 'd.png', '--watch=no')
+        np.save(self.path('levels.npy'), np.load(self.path('flat.npy')) * (np.array(drawing()) > 0))
+        green = {}
+        for value in ('--directx', '--directx yes', '--directx no', '--directx=false', ''):
+            self.celdepth('shade', 'levels.npy', *value.split(), '--drawing', 'drawing.png', '--maps', 'm.png')
+            green[value] = self.picture('m_n.png')[..., 1].tobytes()
+        same = [value for value, picture in green.items() if picture == green['']]
+        self.assertEqual(same, ['--directx no', '--directx=false', ''])
+        self.wrong('enhance', *words, '--quiet=1', naming="--quiet must be yes, no, true or false, not '1'.")
+
+    def test_given_twice(self):
+        """Relations add up; of other options with one value the first would be lost in silence."""
+        self.popup('--quiet', '--depth', 'd.png', '-q')
+        first, second = RELATIONS.split('; ')
+        self.popup('--relations', first, '--relations=' + second, '--levels', 'twice.npy')
+        self.popup('--relations', RELATIONS, '--levels', 'once.npy')
+        np.testing.assert_array_equal(np.load(self.path('twice.npy')), np.load(self.path('once.npy')))
+        for words in (('--depth', 'c.png'), ('--depth=c.png',), ('--tolerance', '1e-4', '--tolerance=1e-3'),
+                      ('--complete', '--complete', 'no'), ('--relations-file', 'a', '--relations-file', 'b')):
+            name = words[0].split('=')[0]
+            self.wrong('popup', 'a.png', '--depth', 'b.png', *words, naming=f'{name} is given twice.')
+
     def test_messages_about_values(self):
-        for words, said in ((('--tolerance', '5'), '--tolerance must be between 0.0000001 and 0.1, not 5.'),
+        for words, said in ((('--tolerance', '5'), "--tolerance must be between 0.0000001 and 0.1, not '5'."),
                             (('--ink', 'Dark'), "--ink must be auto, dark, light, alpha or lines, not 'Dark'."),
-                            (('--close-gaps', '1x'), "--close-gaps must be yes or no, not '1x'."),
-                            (('--toon-steps', '2.5'), '--toon-steps must be a whole number between 2 and 5, not 2.5.')):
+                            (('--close-gaps', '1x'), "--close-gaps must be yes, no, true or false, not '1x'."),
+                            (('--toon-steps', '2.5'), "--toon-steps must be a whole number between 2 and 5, not '2.5'.")):
             self.wrong('popup', 'a.png', '--depth', 'b.png', *words, naming=said)
         self.wrong('stereo', 'a.png', '--views', '1', naming="--views must be a whole number between 2 and 1000, not '1'")
 
@@ -155,12 +189,29 @@ class Usage(Test):
             done = run('popup', *words, given='drawing.png')
             self.assertEqual((done.returncode, done.stdout), (2, b''))
             self.assertIn(said, done.stderr.decode())
+        done = run('register', 'drawing.png', 'drawing.png', '--displacement', '-', given='drawing.png')
+        self.assertEqual((done.returncode, done.stdout[:6]), (0, b'\x93NUMPY'), done.stderr)
         with open(self.path('nothing'), 'wb'):
             before.add('nothing')
         done = run('popup', '-', '--depth', 'd.png', given='nothing')
         self.assertEqual(done.returncode, 1)
         self.assertIn('"standard input"', done.stderr.decode())
         self.assertEqual(set(os.listdir(self.folder)), before)
+
+    def test_closed_standard_files(self):
+        """They are not mistaken for other files that get their numbers."""
+        for words, code, said in (('popup - --depth d.png <&-', 2, 'Cannot read standard input: Bad file descriptor'),
+                                  ('popup drawing.png --scribbles scribbles.png --depth - >&-', 1,
+                                   'Cannot write standard output')):
+            done = subprocess.run(['bash', '-c', f'{COMMAND} {words}'], cwd=self.folder, capture_output=True, text=True,
+                                  timeout=60, check=False)
+            self.assertEqual(done.returncode, code, words)
+            self.assertIn(said, done.stderr)
+        for word in ('help', '--version', 'popup --help'):
+            done = subprocess.run(['bash', '-c', f'{COMMAND} {word} >/dev/full'], capture_output=True, text=True,
+                                  check=False)
+            self.assertEqual(done.returncode, 1, word)
+            self.assertIn('Cannot write standard output: No space left on device.', done.stderr)
 
     def test_one_progress_bar(self):
         """It never goes back, over all stages, and is silent where it would only disturb."""
@@ -206,6 +257,8 @@ class Usage(Test):
 
     def test_help_of_a_command(self):
         self.assertEqual(self.celdepth('help', 'popup'), self.celdepth('popup', '--help'))
+        self.assertEqual(self.celdepth('help', '--help'), self.celdepth('help'))
+        self.wrong('help', 'popup', 'extra', naming='Give one command to help')
         self.assertIn("There is no command 'shad'. Did you mean 'shade'?", self.celdepth('help', 'shad', code=2))
 
     def test_did_you_mean(self):
