@@ -58,6 +58,22 @@ cli_find_part (const CeldIoFile *file, const char *name)
   return part;
 }
 
+/* Says which layers of a role are left out, if several have it. */
+static void
+say_left_out (const CeldIoFile *file, size_t part, const char *path, const char *role)
+{
+  GString *names = g_string_new (NULL);
+  guint    n = 0;
+
+  for (size_t i = 0; i < celd_io_parts (file); i++)
+    if (celd_layer_role_of_name (celd_io_part (file, i)->name) == celd_layer_role_of_name (role))
+      g_string_append_printf (names, "%s\"%s\"", n++ ? ", " : "", celd_io_part (file, i)->name);
+  if (n > 1)
+    cli_say ("\"%s\" has %u layers for %s: %s. Only the lowest \"%s\" is read: merge them, or give the others names of "
+             "their own.", path, n, role, names->str, celd_io_part (file, part)->name);
+  g_string_free (names, TRUE);
+}
+
 /* The part with the drawing: the one of that name, or the first if no part has the name of a layer; otherwise
  * CELD_NO_INDEX, with a message. */
 static size_t
@@ -138,11 +154,15 @@ read_input (const char *path, const CliOptions *options, CliRoles wanted, CliLay
   bool        good = drawing != CELD_NO_INDEX && check_size (file, path, layers) &&
                      cli_read_drawing (file, drawing, path, options, &layers->drawing);
 
+  if (good && !options->quiet)
+    say_left_out (file, drawing, path, "drawing");
   for (size_t i = 1; good && i < G_N_ELEMENTS (roles); i++)
     if (wanted & roles[i].role && !path_of (options, roles[i].role))
       {
         size_t part = cli_find_part (file, roles[i].name);
 
+        if (part != CELD_NO_INDEX && !options->quiet)
+          say_left_out (file, part, path, roles[i].name);
         if (part == CELD_NO_INDEX && roles[i].role == CLI_SCRIBBLES && options->settings.flats)
           part = drawing;
         good = part == CELD_NO_INDEX || cli_read_paint (file, part, path, paint_of (layers, roles[i].role));

@@ -75,6 +75,19 @@ class Layers(Test):
             write_psd(self.path('page.psd'), (WIDTH, HEIGHT), page)
             self.same_labels('page.psd')
 
+    def test_two_layers_of_a_name(self):
+        """The lowest one counts, and a message says so; a copy with a name of its own is none of them."""
+        other = ('Scribbles', 0, 0, Image.new('RGBA', (5, 5), RED))
+        words = 'segment', 'page.psd', '--labels', 'again.npy'
+        says = '"page.psd" has 2 layers for scribbles: "scribbles", "Scribbles". Only the lowest "scribbles" is read'
+        for page, said in ((layers() + [other], True), (layers() + [('Scribbles copy', *other[1:])], False)):
+            write_psd(self.path('page.psd'), (WIDTH, HEIGHT), page)
+            self.assertEqual(says in self.celdepth(*words), said)
+            self.same_labels('page.psd', '--quiet')
+        write_psd(self.path('page.psd'), (WIDTH, HEIGHT), layers()[:1] + layers())
+        self.assertIn('has 2 layers for drawing: "Drawing", "Drawing"', self.celdepth(*words))
+        self.assertEqual(self.celdepth(*words, '--quiet'), '')
+
     def test_option_before_layer(self):
         other = ('scribbles', 0, 0, Image.new('RGBA', (5, 5), RED))
         write_psd(self.path('page.psd'), (WIDTH, HEIGHT), [layers()[0], other])
