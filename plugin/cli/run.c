@@ -1,4 +1,4 @@
-/* Progress on stderr, cancelling by SIGINT or SIGTERM, and the time of each stage.
+/* Progress on stderr, cancelling by SIGINT, SIGTERM or SIGHUP, and the time of each stage.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -167,10 +167,12 @@ each (void *host, int n, void (*body) (void *data, int i), void *data)
 void
 cli_run_begin (CliRun *run, const CliOptions *options, const char *stages)
 {
-  struct sigaction action = { .sa_handler = interrupt, .sa_flags = (int) SA_RESETHAND | SA_RESTART };
+  struct sigaction action = { .sa_handler = interrupt, .sa_flags = (int) SA_RESETHAND | SA_RESTART }, hangup;
 
   sigaction (SIGINT, &action, NULL);
   sigaction (SIGTERM, &action, NULL);
+  if (!sigaction (SIGHUP, NULL, &hangup) && hangup.sa_handler != SIG_IGN) /* which nohup asks for */
+    sigaction (SIGHUP, &action, NULL);
   *run = (CliRun) {
     .host    = { progress, each, run },
     .timings = g_array_new (FALSE, FALSE, sizeof (CliTiming)),

@@ -7,8 +7,8 @@
 
 #include "cli.h"
 
-/* Calls `run`, which returns an exit code, now and whenever an input that the options name is saved, until SIGINT or
- * SIGTERM arrives.  The exit code. */
+/* Calls `run`, which returns an exit code, now and whenever an input that the options name is saved, until SIGINT,
+ * SIGTERM or SIGHUP arrives.  The exit code. */
 int cli_watch (const CliOptions *options, int (*run) (void *data), void *data);
 
 #endif

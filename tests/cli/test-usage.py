@@ -303,7 +303,7 @@ class Usage(Test):
             self.assertIn('0.5', file.read())
 
     def test_interrupt(self):
-        """A bar appears on a terminal; an interrupt ends the work, and nothing is left."""
+        """A bar appears on a terminal; an interrupt ends the work, as when the terminal is closed, and nothing is left."""
         screen, terminal = pty.openpty()
         noise = np.random.default_rng(1).integers(0, 256, (1800, 1800), dtype=np.uint8)
         Image.fromarray(np.where(noise < 40, 0, 255).astype(np.uint8)).save(self.path('large.png'))
@@ -324,6 +324,17 @@ class Usage(Test):
         self.assertIn(b'%', shown)
         self.assertIn(b'Cancelled', rest)
         self.assertEqual(set(os.listdir(self.folder)), before)
+        os.mkdir(self.path('temporary'))
+        before.add('temporary')
+        with open(self.path('large.png'), 'rb') as file:
+            process = subprocess.Popen([words[0], words[1], '-', *words[3:], '--progress'], cwd=self.folder, stdin=file,
+                                       stderr=subprocess.PIPE, env={**os.environ, 'TMPDIR': self.path('temporary')})
+        os.read(process.stderr.fileno(), 1000)
+        process.send_signal(signal.SIGHUP)
+        self.assertEqual(process.wait(60), 1)
+        process.stderr.close()
+        self.assertEqual(set(os.listdir(self.folder)), before)
+        self.assertEqual(os.listdir(self.path('temporary')), [])
 
     def test_quiet(self):
         self.assertEqual(self.popup('--relations', RELATIONS, '--depth', 'depth.png', '--quiet'), '')
