@@ -138,7 +138,7 @@ typedef struct CliThreads CliThreads;
 
 typedef struct { const char *stage; double seconds; } CliTiming;
 
-/* The command's CeldHost: a progress bar of the whole work on stderr, cancelling by SIGINT and SIGTERM, and the time of
+/* The command's CeldHost: a progress bar of the whole work on stderr, cancelling by SIGINT, SIGTERM and SIGHUP, and the time of
  * each stage. */
 typedef struct
 {
@@ -271,6 +271,10 @@ void cli_warn_if_flat          (const char *path, const CeldPlane *levels);  /* 
 
 /* ------------------------------------------------------------------ input.c, texts */
 
+/* All bytes of a file, with a NUL behind them; NULL with a message.  Free with g_free. */
+char *cli_file_read (const char *path, gsize *length);
+/* Why a file or folder cannot be read, in words of the system. */
+const char *cli_file_problem (const char *path);
 /* The text of the file, or if `path` is NULL `given`; "" if neither is given, NULL, with a message, if it cannot be
  * read. */
 char *cli_text_or_file (const char *given, const char *path);

@@ -61,18 +61,14 @@ read_clip (const char *folder, CliClip *clip)
 {
   char       *path = g_build_filename (folder, CLI_CLIP_FILE, NULL), *full = g_canonicalize_filename (folder, NULL);
   JsonParser *parser = json_parser_new_immutable ();
-  GError     *error = NULL;
   bool        good;
 
   *clip = (CliClip) { 0 };
   if (!g_file_test (path, G_FILE_TEST_EXISTS))
     good = cli_error ("\"%s\" is no clip: it has no %s, which 'celdepth propagate --labels-dir %s' writes.", folder,
                       CLI_CLIP_FILE, folder);
-  else if (!json_parser_load_from_file (parser, path, &error))
-    good = cli_error ("Cannot read \"%s\": %s.", path, error->message);
   else
-    good = read_description (json_parser_get_root (parser), full, path, clip);
-  g_clear_error (&error);
+    good = cli_json_read (parser, path) && read_description (json_parser_get_root (parser), full, path, clip);
   g_object_unref (parser);
   g_free (path);
   g_free (full);

@@ -5,8 +5,8 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "composition.h"
+#include "json.h"
 
-#include <json-glib/json-glib.h>
 #include <stddef.h>
 #include <string.h>
 
@@ -257,15 +257,11 @@ bool
 cli_composition_read (const char *path, const CliOptions *options, CliComposition *c)
 {
   JsonParser *parser = json_parser_new ();
-  GError     *error = NULL;
   JsonNode   *root;
   bool        good;
 
   *c   = (CliComposition) { .path = path };
-  good = json_parser_load_from_file (parser, path, &error);
-  if (!good)
-    cli_say ("Cannot read \"%s\": %s", path, error->message);
-  g_clear_error (&error);
+  good = cli_json_read (parser, path);
   root = good ? json_parser_get_root (parser) : NULL;
   if (good && (!root || !JSON_NODE_HOLDS_OBJECT (root)))
     good = cli_error ("\"%s\": a composition is an object such as { \"fragments\": [ { \"drawing\": \"man.png\" } ] }.",

@@ -8,8 +8,8 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "cli.h"
+#include "json.h"
 
-#include <json-glib/json-glib.h>
 #include <math.h>
 #include <stdlib.h>
 
@@ -143,14 +143,8 @@ bool
 cli_handle_keys_read (const char *path, CliHandleKeys *keys)
 {
   JsonParser *parser = json_parser_new ();
-  GError     *error = NULL;
-  bool        good = json_parser_load_from_file (parser, path, &error);
+  bool        good = cli_json_read (parser, path) && read_root (path, json_parser_get_root (parser), keys);
 
-  if (good)
-    good = read_root (path, json_parser_get_root (parser), keys);
-  else
-    cli_say ("Cannot read \"%s\": %s", path, error->message);
-  g_clear_error (&error);
   g_object_unref (parser);
   return good;
 }

@@ -1,4 +1,4 @@
-/* Writing JSON, for files that build it.
+/* Reading and writing JSON.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -10,5 +10,8 @@
 
 /* Writes what was built, indented, as cli_write_text does, and frees the builder. */
 bool cli_write_json (const char *path, JsonBuilder *json);
+
+/* Reads a file into the parser; false with a message. */
+bool cli_json_read (JsonParser *parser, const char *path);
 
 #endif

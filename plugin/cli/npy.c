@@ -66,18 +66,13 @@ read_header (const char *header, int *height, int *width)
 bool
 cli_npy_read (const char *path, CeldPlane *plane)
 {
-  char   *bytes = NULL;
-  gsize   length, header_end;
-  int     height, width;
-  GError *error = NULL;
-  bool    good = false;
+  gsize length, header_end;
+  char *bytes = cli_file_read (path, &length);
+  int   height, width;
+  bool  good = false;
 
-  if (!g_file_get_contents (path, &bytes, &length, &error))
-    {
-      cli_say ("Cannot read \"%s\": %s", path, error->message);
-      g_error_free (error);
-      return false;
-    }
+  if (!bytes)
+    return false;
   header_end = length > PREFIX ? PREFIX + (guchar) bytes[8] + 256 * (gsize) (guchar) bytes[9] : 0;
   if (!header_end || header_end >= length || memcmp (bytes, "\x93NUMPY\x01", 7) || bytes[header_end - 1] != '\n')
     cli_say ("Cannot read \"%s\": it is not a numpy file of version 1, or it is damaged.", path);

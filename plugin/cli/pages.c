@@ -157,7 +157,6 @@ begin_page (CliPage *page)
   GSubprocessLauncher *launcher = g_subprocess_launcher_new (G_SUBPROCESS_FLAGS_STDOUT_SILENCE |
                                                              G_SUBPROCESS_FLAGS_STDERR_PIPE);
   char                *threads = g_strdup_printf ("%d", MAX ((int) g_get_num_processors () / book->jobs, 1));
-  GError              *error = NULL;
 
   cli_page_remove_unfinished (page);
   g_ptr_array_add (words, g_strdup (book->program));
@@ -169,15 +168,14 @@ begin_page (CliPage *page)
   g_ptr_array_add (words, g_strdup (page->path));
   g_ptr_array_add (words, NULL);
   g_subprocess_launcher_setenv (launcher, CLI_THREADS_VARIABLE, threads, TRUE);
-  page->process = g_subprocess_launcher_spawnv (launcher, (const char *const *) words->pdata, &error);
+  page->process = g_subprocess_launcher_spawnv (launcher, (const char *const *) words->pdata, NULL);
   if (page->process)
     {
       book->running++;
       g_subprocess_communicate_utf8_async (page->process, NULL, NULL, end_page, page);
     }
   else
-    cli_say ("%s: %s.", page->path, error->message);
-  g_clear_error (&error);
+    cli_say ("%s: no process could be started for it.", page->path);
   g_object_unref (launcher);
   g_ptr_array_free (words, TRUE);
   g_free (threads);

@@ -65,17 +65,12 @@ is_picture (const char *name)
 static bool
 append_folder (GPtrArray *paths, const char *folder)
 {
-  GError     *error = NULL;
-  GDir       *open = g_dir_open (folder, 0, &error);
+  GDir       *open = g_dir_open (folder, 0, NULL);
   const char *name;
   size_t      first, n;
 
   if (!open)
-    {
-      cli_say ("Cannot read \"%s\": %s.", folder, error->message);
-      g_error_free (error);
-      return false;
-    }
+    return cli_error ("Cannot read \"%s\": %s.", folder, cli_file_problem (folder));
   while ((name = g_dir_read_name (open)))
     if (name[0] != '.' && is_picture (name) && find_digits (name, &first, &n))
       append (paths, g_build_filename (folder, name, NULL));

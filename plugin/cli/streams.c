@@ -31,13 +31,17 @@ copy (FILE *from, FILE *to)
 static bool
 make_folder (CliStreams *streams)
 {
-  GError *error = NULL;
-
   if (!streams->folder)
-    streams->folder = g_dir_make_tmp ("celdepth-XXXXXX", &error);
-  if (error)
-    cli_say ("Cannot make a temporary folder: %s.", error->message);
-  g_clear_error (&error);
+    {
+      char *name = g_build_filename (g_get_tmp_dir (), "celdepth-XXXXXX", NULL);
+
+      streams->folder = g_mkdtemp (name);
+      if (!streams->folder)
+        {
+          cli_say ("Cannot make a folder in \"%s\": %s.", g_get_tmp_dir (), g_strerror (errno));
+          g_free (name);
+        }
+    }
   cli_say_without (streams->folder);
   return streams->folder;
 }

@@ -59,21 +59,40 @@ cli_relation_text (const CeldRelation *relation, const char *const *names)
 /* ------------------------------------------------------------------ texts that are given */
 
 char *
+cli_file_read (const char *path, gsize *length)
+{
+  char   *bytes = NULL;
+  GError *error = NULL;
+
+  if (g_file_get_contents (path, &bytes, length, &error))
+    return bytes;
+  cli_say ("Cannot read \"%s\": %s.", path, cli_file_problem (path));
+  g_error_free (error);
+  return NULL;
+}
+
+const char *
+cli_file_problem (const char *path)
+{
+  FILE *file = fopen (path, "rb");
+  char  byte;
+  int   code = file && fread (&byte, 1, 1, file) == 0 && ferror (file) ? errno : file ? EIO : errno;
+
+  if (file)
+    fclose (file);
+  return g_strerror (code);
+}
+
+char *
 cli_text_or_file (const char *given, const char *path)
 {
-  char   *text = NULL;
-  gsize   length = 0;
-  GError *error = NULL;
+  char *text;
+  gsize length = 0;
 
   if (!path)
     return g_strdup (given ? given : "");
-  if (!g_file_get_contents (path, &text, &length, &error))
-    {
-      cli_say ("Cannot read \"%s\": %s", path, error->message);
-      g_error_free (error);
-      return NULL;
-    }
-  if (strlen (text) < length)
+  text = cli_file_read (path, &length);
+  if (text && strlen (text) < length)
     {
       cli_say ("Cannot read \"%s\": it is not a text file.", path);
       g_clear_pointer (&text, g_free);
@@ -204,6 +223,25 @@ cli_write_text (const char *path, const char *text)
   if (!good && file)
     g_unlink (unfinished);
   g_free (unfinished);
+  return good;
+}
+
+bool
+cli_json_read (JsonParser *parser, const char *path)
+{
+  gsize   length = 0;
+  char   *text = cli_file_read (path, &length);
+  GError *error = NULL;
+  bool    good = text && json_parser_load_from_data (parser, text, (gssize) length, &error);
+  guint   line = 1;
+
+  if (error)
+    {
+      sscanf (error->message, "<data>:%u:", &line); /* the parser forgets where it was */
+      cli_say ("Cannot read \"%s\": line %u is no JSON.", path, line);
+      g_error_free (error);
+    }
+  g_free (text);
   return good;
 }
 
