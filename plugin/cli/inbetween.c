@@ -75,7 +75,7 @@ carry_labels (Between *b)
   bool             good;
 
   cli_run_stage (&b->run, "propagation");
-  good = cli_frame_ink (motion, &b->run.host, 1, &b->ink[1]) &&
+  good = cli_frame_ink (motion, &b->run.host, 1, &b->ink[1]) && cli_check_lines (b->options->target, &b->ink[1]) &&
          cli_labels_new (motion->width, motion->height, &b->labels[1]) &&
          cli_plane_new (motion->width, motion->height, &certainty) &&
          cli_run_finish (&b->run, cli_frame_carry (motion, &b->run.host, &b->ink[0], &b->labels[0], &b->ink[1],

@@ -5,9 +5,13 @@
  */
 #include "cli.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "layer-names.h"
+
+#define MOST_REGIONS 0xffffff /* as many as there are colours */
+#define COLOUR_STEP  0x9e3779 /* odd, so that all multiples of it differ in 24 bits; near the golden ratio, far apart */
 
 static const struct { CliRoles role; const char *name; } roles[] = {
   { CLI_DRAWING, "drawing" }, { CLI_SCRIBBLES, "scribbles" }, { CLI_ARROWS, "arrows" }, { CLI_CONTOURS, "contours" },
@@ -20,8 +24,14 @@ static CeldIoFile *
 open_file (const char *path)
 {
   CeldIoError error;
-  CeldIoFile *file = celd_io_open (path, &error);
+  CeldIoFile *file;
 
+  if (cli_is_npy (path) && g_file_test (path, G_FILE_TEST_IS_REGULAR))
+    {
+      cli_say ("\"%s\" has numbers without colours, which can be levels, depth or regions only.", path);
+      return NULL;
+    }
+  file = celd_io_open (path, &error);
   if (!file)
     cli_say ("%s", error.text);
   return file;
@@ -96,14 +106,54 @@ find_drawing (const CeldIoFile *file, const char *path)
   return CELD_NO_INDEX;
 }
 
+/* Reads the numbers of regions that segment has written, and gives each a colour of its own. */
+static bool
+read_numbers (const char *path, CliLayers *layers, CeldPaint *paint)
+{
+  CeldPlane numbers = { 0 };
+  bool      good = cli_npy_read (path, &numbers) && cli_check_numbers (path, &numbers);
+  size_t    n = (size_t) numbers.width * (size_t) numbers.height;
+
+  if (good && !layers->width)
+    {
+      layers->width  = numbers.width;
+      layers->height = numbers.height;
+    }
+  good = good && check_sides (numbers.width, numbers.height, path, layers);
+  if (good)
+    {
+      *paint = (CeldPaint) { numbers.width, numbers.height, numbers.stride, g_try_malloc0 (4 * n) };
+      good   = cli_check (paint->data ? CELD_OK : CELD_NO_MEMORY);
+    }
+  for (size_t i = 0; i < n && good; i++)
+    {
+      float    number = numbers.data[i];
+      uint32_t colour = (uint32_t) CLAMP (number, 0, MOST_REGIONS) * COLOUR_STEP;
+
+      if (number != floorf (number) || number < 0 || number > MOST_REGIONS)
+        good = cli_error ("\"%s\" has the value %g, but regions are whole numbers from 1, as segment writes them with "
+                          "--labels.", path, (double) number);
+      for (int k = 0; k < 3; k++)
+        paint->data[4 * i + (size_t) k] = (uint8_t) (colour >> (8 * k));
+      paint->data[4 * i + 3] = number > 0 ? 255 : 0;
+    }
+  g_free (numbers.data);
+  return good;
+}
+
 bool
 cli_layer_read (const char *path, const char *role, CliLayers *layers, CeldPaint *paint)
 {
-  CeldIoFile *file = open_file (path);
-  size_t      part = file ? cli_find_part (file, role) : 0;
-  bool        good = file && check_size (file, path, layers) &&
-                     cli_read_paint (file, part == CELD_NO_INDEX ? 0 : part, path, paint);
+  CeldIoFile *file;
+  size_t      part;
+  bool        good;
 
+  if (cli_is_npy (path) && !strcmp (role, "labels"))
+    return read_numbers (path, layers, paint);
+  file = open_file (path);
+  part = file ? cli_find_part (file, role) : 0;
+  good = file && check_size (file, path, layers) &&
+         cli_read_paint (file, part == CELD_NO_INDEX ? 0 : part, path, paint);
   celd_io_close (file);
   return good;
 }

@@ -8,7 +8,6 @@
 typedef struct
 {
   CliLayers     layers;
-  CeldPaint     paint;
   CeldLabels    labels;
   CeldPlane     ink, hint;
   CeldPalette   palette;
@@ -27,15 +26,14 @@ load_ordering (const CliOptions *options, Ordering *o)
   bool          good = text &&
                        cli_check_relations (celd_relations_parse (text, &o->relations, &error), options, &error) &&
                        cli_check_text (celd_arrow_path_parse (path, &o->relations, &error), "--arrow-path", &error) &&
-                       cli_layer_read (options->input, "labels", &o->layers, &o->paint) &&
+                       cli_regions_read (options->input, &o->layers, &o->labels, &o->palette) &&
                        cli_layers_read (options->drawing, options, CLI_ARROWS | CLI_CONTOURS, &o->layers) &&
-                       (!options->depth_hint || cli_hint_read (options->depth_hint, &o->layers, &o->hint)) &&
-                       cli_labels_new (o->paint.width, o->paint.height, &o->labels) &&
-                       cli_check (celd_labels_read (&o->paint, &o->labels, &o->palette)) &&
-                       cli_check_regions (options->input, &o->labels, &o->palette);
+                       (!options->depth_hint || cli_hint_read (options->depth_hint, &o->layers, &o->hint));
 
   g_free (text);
-  return good && (!options->drawing || cli_make_ink (&o->layers, CELD_FOR_SEGMENTATION, options, &o->run, &o->ink));
+  return good && (!options->drawing ||
+                  (cli_make_ink (&o->layers, CELD_FOR_SEGMENTATION, options, &o->run, &o->ink) &&
+                   cli_check_lines (options->drawing, &o->ink)));
 }
 
 static CeldStatus
@@ -95,7 +93,6 @@ static void
 clear_ordering (Ordering *o)
 {
   cli_layers_clear (&o->layers);
-  g_free (o->paint.data);
   g_free (o->labels.data);
   g_free (o->ink.data);
   g_free (o->hint.data);

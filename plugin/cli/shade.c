@@ -348,6 +348,7 @@ run_shade (const CliOptions *options)
 
   cli_run_begin (&run, options, "reading shade writing");
   good = read_all (options, &s) && new_results (options, &s) && shade_cells (options, &run, &s) &&
+         cli_check_lines (options->drawing, &s.ink) &&
          write_all (options, &s);
   clear (&s);
   cli_run_end (&run);

@@ -44,6 +44,7 @@ cli_step_begin (const CliOptions *options, CliStep *step)
   step->layers.height = step->levels.height;
   return cli_layers_read (options->drawing, options, CLI_CONTOURS, &step->layers) &&
          cli_make_ink (&step->layers, CELD_FOR_DEPTH, options, &step->run, &step->ink) &&
+         cli_check_lines (options->drawing, &step->ink) &&
          (!step->layers.contours.data ||
           cli_make_ink (&step->layers, CELD_FOR_SEGMENTATION, options, &step->run, &step->borders));
 }

@@ -344,6 +344,38 @@ class Nonsense(Test):
         Image.fromarray(noise.astype(np.uint8)).save(self.path('scan.png'))
         self.fails('popup', 'scan.png', '--scribbles', 'scribbles.png', '--depth', 'd.png', naming='has no lines')
 
+    def test_blank_pages_of_single_steps(self):
+        self.popup('--labels', 'labels.png', '--levels', 'levels.npy', '--relations', RELATIONS)
+        Image.new('L', (WIDTH, HEIGHT), 255).save(self.path('white.png'))
+        for command, *words in (('expand', 'levels.npy', '--levels', 'l.png'), ('smooth', 'levels.npy', '--depth', 'd.png'),
+                                ('shade', 'levels.npy', '--shading', 's.png'), ('relief', 'levels.npy', '--mesh', 'm.glb'),
+                                ('order', 'labels.png', '--unexpanded-levels', 'u.npy')):
+            self.fails(command, *words, '--drawing', 'white.png', naming='"white.png" has no lines')
+        self.fails('inbetween', 'drawing.png', 'white.png', '--scribbles', 'scribbles.png', '--output', 'b.png',
+                   naming='"white.png" has no lines')
+
+    def test_numbers_as_regions(self):
+        """Regions as segment writes them to numpy files are those of a picture; other numbers are refused."""
+        self.popup('--labels', 'labels.npy', '--unexpanded-levels', 'whole.npy', '--relations', RELATIONS)
+        self.popup('--labels', 'labels.png', '--levels', 'levels.npy', '--relations', RELATIONS)
+        for kind in ('png', 'npy'):
+            self.celdepth('order', f'labels.{kind}', '--relations', RELATIONS, '--drawing', 'drawing.png',
+                          '--unexpanded-levels', f'order-{kind}.npy')
+            self.celdepth('expand', 'whole.npy', '--regions', f'labels.{kind}', '--drawing', 'drawing.png', '--levels',
+                          f'expand-{kind}.npy')
+        for step in ('order', 'expand'):
+            np.testing.assert_array_equal(np.load(self.path(f'{step}-png.npy')), np.load(self.path(f'{step}-npy.npy')))
+        for value in (-1, 0.5, 1e9):
+            numbers = np.load(self.path('labels.npy'))
+            numbers[3, 3] = value
+            np.save(self.path('wrong.npy'), numbers)
+            self.fails('order', 'wrong.npy', '--unexpanded-levels', 'u.npy', naming='"wrong.npy" has the value')
+        np.save(self.path('small.npy'), np.ones((5, 5), np.float32))
+        self.fails('expand', 'whole.npy', '--regions', 'small.npy', '--drawing', 'drawing.png', '--levels', 'l.npy',
+                   naming='"small.npy" has 5 x 5 pixels')
+        self.fails('popup', 'drawing.png', '--scribbles', 'labels.npy', '--depth', 'd.png',
+                   naming='"labels.npy" has numbers without colours')
+
     def test_lines_by_contours_alone(self):
         """A blank page with painted boundaries is a drawing."""
         contours = Image.new('RGBA', (WIDTH, HEIGHT))
@@ -549,6 +581,23 @@ class BadInput(Test):
         self.fails('popup', 'text.png', '--depth', 'd.png', naming='text.png')
         open(self.path('empty.png'), 'wb').close()
         self.fails('popup', 'empty.png', '--depth', 'd.png', naming='empty.png')
+
+    def test_plain_reasons(self):
+        """A path and a reason in words of the system, not the text of a library."""
+        for name, content in (('bad.json', '{ "fragments": [\n1 2 ] }'), ('list.json', '[1]')):
+            with open(self.path(name), 'w', encoding='ascii') as file:
+                file.write(content)
+        os.mkdir(self.path('folder'))
+        deform = 'deform', 'drawing.png', '--scribbles', 'scribbles.png', '--output', 'o.gif', '--keys'
+        order = 'order', 'none.npy', '--unexpanded-levels', 'u.npy'
+        for words, said in ((('compose', 'none.json', '--output', 'o.png'), '"none.json": No such file or directory.'),
+                            (('compose', 'folder', '--output', 'o.png'), '"folder": Is a directory.'),
+                            (('compose', 'bad.json', '--output', 'o.png'), '"bad.json": line 2 is no JSON.'),
+                            ((*order, '--drawing', 'drawing.png'), '"none.npy": No such file or directory.'),
+                            (('popup', 'drawing.png', '--relations-file', 'none.txt', '--depth', 'd.png'),
+                             '"none.txt": No such file or directory.')):
+            self.assertEqual(self.celdepth(*words, code=1), f'celdepth: Cannot read {said}\n')
+        self.assertIn('Cannot read "bad.json": line 2 is no JSON.', self.celdepth(*deform, 'bad.json', code=1))
 
     def test_truncated_files(self):
         noise = np.random.default_rng(1).integers(0, 256, (64, 64, 3), dtype=np.uint8)
