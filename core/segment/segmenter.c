@@ -59,6 +59,9 @@ celd_segmenter_set_ink (CeldSegmenter *segmenter, const CeldPlane *ink, const Ce
   CeldRect       rect = changed ? *changed : (CeldRect) { 0 };
   CeldStatus     status;
 
+  s->ink = *ink;
+  if (renew && (rect.width < 1 || rect.height < 1))
+    return CELD_OK; /* all that is known of the drawing stays true; components are joined over bridges already */
   celd_strokes_clear (&s->strokes);
   celd_free (s->bridged_component);
   s->bridged_component = NULL;
@@ -74,7 +77,6 @@ celd_segmenter_set_ink (CeldSegmenter *segmenter, const CeldPlane *ink, const Ce
     status = celd_labelling_reset (&s->labelling, &s->basins);
   if (status == CELD_OK)
     {
-      s->ink       = *ink;
       s->threshold = threshold;
       s->bridged   = settings->close_gaps;
     }

@@ -6,6 +6,7 @@ SPDX-License-Identifier: LGPL-3.0-or-later
 import io
 import json
 import os
+import shutil
 import signal
 import subprocess
 import threading
@@ -17,6 +18,7 @@ from PIL import Image, ImageDraw
 
 from pictures import BLUE, COMMAND, HEIGHT, IN_B, WIDTH, Test, at, drawing, scribbles, write_ora
 
+CASES = os.path.join(os.path.dirname(os.path.abspath(__file__)), '..', 'cases')
 LONGEST = 60  # seconds until something must have happened, on a machine that is busy
 
 
@@ -117,6 +119,31 @@ class Watch(Test):
         self.wait_for_colour((200, 0, 200))
         self.ends()
         self.assertEqual(len(self.lines_with('Cannot read')), 1)
+
+    def test_remarks_return(self):
+        """A page that is as it was before has the same remarks, also if one in between could not be used."""
+        page = {}
+        for name in ('drawing', 'scribbles'):
+            with open(os.path.join(CASES, 'caterpillar', name + '.png'), 'rb') as file:
+                page[name] = file.read()
+        with Image.open(io.BytesIO(page['drawing'])) as picture:
+            size = picture.size
+        blank = io.BytesIO()
+        Image.new('L', size, 255).save(blank, 'PNG')
+        for name, lines in (('good.ora', page['drawing']), ('blank.ora', blank.getvalue())):
+            write_ora(self.path(name), size, '<stack><layer name="scribbles" src="s.png"/><layer name="drawing" '
+                                             'src="d.png"/></stack>', {'d.png': lines, 's.png': page['scribbles']})
+        shutil.copy(self.path('good.ora'), self.path('page.ora'))
+        self.start('segment', 'page.ora', '--labels', 'labels.png')
+        first = self.lines[:]
+        shutil.copy(self.path('blank.ora'), self.path('page.ora'))
+        self.wait_for('Nothing was made', 1)
+        middle = len(self.lines)
+        shutil.copy(self.path('good.ora'), self.path('page.ora'))
+        self.wait_for('Made in', 2)
+        self.ends()
+        self.assertGreater(len(first), 1)
+        self.assertEqual(self.lines[middle:middle + len(first) - 1], first[:-1])
 
     def test_own_results(self):
         """Results beside the page, and other files, do not make it run again."""
