@@ -73,7 +73,7 @@ scaled_frame (const CeldIoFrames &frames, size_t frame, int width, int height)
   small.resize (3 * size_t (width) * size_t (height));
   if (!OIIO::ImageBufAlgo::resize (part, whole, "", 0, OIIO::ROI (0, width, 0, height, 0, 1, 0, 3), 1) ||
       !part.get_pixels (part.roi (), OIIO::TypeFloat, small.data ()))
-    throw IoFailure (part.geterror ());
+    throw IoFailure ("its frames cannot be scaled down.");
   return small;
 }
 
@@ -170,6 +170,8 @@ private:
 
 // ------------------------------------------------------------------ the file
 
+constexpr const char *refused = "it cannot be written as a GIF.";
+
 // giflib's file; its functions return GIF_OK or GIF_ERROR.
 class GifFile
 {
@@ -180,12 +182,12 @@ public:
     int descriptor = open (path.c_str (), O_WRONLY | O_CREAT | O_TRUNC, 0666); // giflib would let only the owner read it
 
     if (descriptor < 0)
-      throw IoFailure (GifErrorString (E_GIF_ERR_OPEN_FAILED));
+      throw IoFailure (system_reason (errno));
     file = EGifOpenFileHandle (descriptor, &error);
     if (!file)
       {
         ::close (descriptor);
-        throw IoFailure (GifErrorString (error));
+        throw IoFailure (refused);
       }
   }
   ~GifFile () { close (); }
@@ -195,7 +197,7 @@ public:
   void try_to (int result)
   {
     if (result != GIF_OK)
-      throw IoFailure (GifErrorString (file->Error));
+      throw IoFailure (refused);
   }
   bool close ()
   {

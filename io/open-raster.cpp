@@ -106,19 +106,9 @@ class Zip
 public:
   explicit Zip (const std::string &path)
   {
-    int code = 0;
-
-    zip = zip_open (path.c_str (), ZIP_CREATE | ZIP_EXCL, &code);
+    zip = zip_open (path.c_str (), ZIP_CREATE | ZIP_TRUNCATE, nullptr);
     if (!zip)
-      {
-        zip_error_t error;
-        std::string why;
-
-        zip_error_init_with_code (&error, code);
-        why = zip_error_strerror (&error);
-        zip_error_fini (&error);
-        throw IoFailure (why + ".");
-      }
+      fail ();
   }
 
   ~Zip ()
@@ -154,7 +144,7 @@ public:
   }
 
 private:
-  [[noreturn]] void fail () { throw IoFailure (std::string (zip_strerror (zip)) + "."); }
+  [[noreturn]] void fail () { throw IoFailure ("it cannot be written as a zip file."); }
 
   zip_t            *zip;
   std::deque<Bytes> contents; // a deque, which does not move its items

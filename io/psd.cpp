@@ -73,16 +73,8 @@ private:
   void
   check (MagickBooleanType good)
   {
-    ExceptionType kind;
-    char         *text;
-    std::string   why;
-
-    if (good)
-      return;
-    text = MagickGetException (wand, &kind);
-    why  = text && *text ? text : "ImageMagick refuses it.";
-    MagickRelinquishMemory (text);
-    throw IoFailure (why);
+    if (!good)
+      throw IoFailure ("ImageMagick refuses it.");
   }
 
   MagickWand *wand;
