@@ -1,5 +1,5 @@
-// The names of layers of a PSD in Unicode ("luni"), which OpenImageIO leaves out.  What it has are names of one byte a
-// character, in which Krita writes "?" for letters that Latin 1 does not have.
+// What OpenImageIO does not read of a PSD: the names of layers in Unicode ("luni"), and layers that are compressed by
+// ZIP.  It has names of one byte a character, in which Krita writes "?" for letters that Latin 1 does not have.
 //
 // Source: Adobe, Photoshop File Formats Specification, Layer and Mask Information Section.
 //
@@ -102,14 +102,21 @@ find_name (PsdStream &psd, uint64_t end)
   return "";
 }
 
-std::vector<std::string>
-psd_layer_names (const std::string &path)
+// A layer: its name, "" if it has none in Unicode, and how many bytes each of its channels takes.
+struct PsdLayer
 {
-  PsdStream                psd (path);
-  std::vector<std::string> names;
+  std::string           name;
+  std::vector<uint64_t> channel;
+};
+
+// The layers from the lowest to the highest, whose pixels follow in the stream; none if the file is damaged.
+static std::vector<PsdLayer>
+read_layers (PsdStream &psd)
+{
+  std::vector<PsdLayer> layers;
 
   if (!psd.has ("8BPS"))
-    return names;
+    return layers;
   const int wide = psd.number (2) == 2 ? 8 : 4; // bytes of some lengths: a PSB has longer ones
   psd.go_to (26);
   psd.skip (psd.number (4)); // colours
@@ -119,13 +126,49 @@ psd_layer_names (const std::string &path)
   const int count = std::abs (int (int16_t (psd.number (2))));
   for (int i = 0; i < count && psd.good (); i++)
     {
-      psd.skip (16);                                   // the place of the layer
-      psd.skip (psd.number (2) * uint64_t (2 + wide)); // channels
-      psd.skip (12);                                   // mode, opacity and flags
+      PsdLayer layer;
+
+      psd.skip (16);                     // the place of the layer
+      for (uint64_t n = psd.number (2); n > 0 && psd.good (); n--)
+        {
+          psd.skip (2);                  // which channel it is
+          layer.channel.push_back (psd.number (wide));
+        }
+      psd.skip (12);                     // mode, opacity and flags
       const uint64_t length = psd.number (4), end = psd.place () + length;
 
-      names.push_back (find_name (psd, end));
+      layer.name = find_name (psd, end);
+      layers.push_back (layer);
       psd.go_to (end);
     }
-  return psd.good () ? names : std::vector<std::string> ();
+  return psd.good () ? layers : std::vector<PsdLayer> ();
+}
+
+std::vector<std::string>
+psd_layer_names (const std::string &path)
+{
+  PsdStream                psd (path);
+  std::vector<std::string> names;
+
+  for (const PsdLayer &layer : read_layers (psd))
+    names.push_back (layer.name);
+  return names;
+}
+
+bool
+psd_has_zip (const std::string &path)
+{
+  constexpr uint64_t first_zip = 2; // 0 raw, 1 RLE, 2 ZIP, 3 ZIP of differences
+  PsdStream          psd (path);
+  bool               found = false;
+
+  for (const PsdLayer &layer : read_layers (psd))
+    for (const uint64_t length : layer.channel)
+      {
+        const uint64_t next = psd.place () + length, kind = psd.number (2);
+
+        found = found || (psd.good () && (kind == first_zip || kind == first_zip + 1));
+        psd.go_to (next);
+      }
+  return found;
 }

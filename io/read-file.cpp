@@ -16,13 +16,36 @@
 #include <filesystem>
 #include <limits>
 
+#include <fcntl.h>
+#include <unistd.h>
+
 using OIIO::ImageSpec;
 using OIIO::Strutil::iequals;
+
+// A file that is open.
+struct Descriptor
+{
+  int number;
+
+  explicit Descriptor (const std::string &path)
+      : number (open (path.c_str (), O_RDONLY | O_CLOEXEC))
+  {
+    if (number < 0)
+      throw IoFailure ("it cannot be opened: " + system_reason (errno));
+  }
+  ~Descriptor () { close (number); }
+  Descriptor (const Descriptor &) = delete;
+  Descriptor &operator= (const Descriptor &) = delete;
+
+  // A name without a question mark, from which OpenImageIO reads options for its decoders.
+  std::string plain_name () const { return "/proc/self/fd/" + std::to_string (number); }
+};
 
 // A file that OpenImageIO decodes.
 class DecodedFile : public PictureFile
 {
 public:
+  std::unique_ptr<Descriptor>       descriptor; // if its name is odd
   std::unique_ptr<OIIO::ImageInput> input;
   std::vector<ImageSpec>            specs; // of each part
 
@@ -144,17 +167,23 @@ name_layers (DecodedFile &file, const std::vector<std::string> &names)
 }
 
 static std::unique_ptr<PictureFile>
-open_decoded (const std::string &path)
+open_decoded (const std::string &path, std::unique_ptr<Descriptor> descriptor)
 {
+  const bool                   odd = path.find ('?') != std::string::npos;
   std::unique_ptr<DecodedFile> file = std::make_unique<DecodedFile> ();
   ImageSpec                    wishes;
 
   file->size = std::filesystem::file_size (path);
   wishes.attribute ("oiio:UnassociatedAlpha", 1);
-  file->input = OIIO::ImageInput::open (path, &wishes);
+  file->input = OIIO::ImageInput::open (odd ? descriptor->plain_name () : path, &wishes);
+  if (odd)
+    file->descriptor = std::move (descriptor);
+  if (!file->input && psd_has_zip (path))
+    throw IoFailure ("its layers are compressed by ZIP, which cannot be read; save it with RLE or without compression, "
+                     "or as ORA.");
   if (!file->input)
-    throw IoFailure ("it is damaged, or of a format that cannot be read. PNG, TIFF, EXR, PSD, ORA, KRA and JPEG can be "
-                     "read; save XCF as ORA or PSD.");
+    throw IoFailure ("it is damaged, or of a format that cannot be read. PNG, JPEG, TIFF, EXR, PSD, ORA, KRA, WebP, GIF "
+                     "and JPEG 2000 can be read; save XCF as ORA or PSD.");
   // OpenImageIO does not find the way back in a WebP, not even from the search for a second picture.
   const int most = iequals (file->input->format_name (), "webp") ? 1 : std::numeric_limits<int>::max ();
   for (int i = 0; i < most && file->input->seek_subimage (i, 0); i++)
@@ -210,7 +239,10 @@ open_picture (const std::string &path)
     throw IoFailure ("it is a folder.");
   if (!std::filesystem::is_regular_file (status))
     throw IoFailure ("it is not an ordinary file.");
-  return is_zip (path) ? open_layered (path) : open_decoded (path);
+
+  auto descriptor = std::make_unique<Descriptor> (path);
+
+  return is_zip (path) ? open_layered (path) : open_decoded (path, std::move (descriptor));
 }
 
 // Twice the size of the pixels, since interlaced and animated pictures are decoded as a whole, some with a copy.

@@ -1,7 +1,7 @@
 // Pictures in files, decoded in the reading process.
 //
 //   read-file.cpp     what OpenImageIO decodes
-//   psd-names.cpp     names of layers in a PSD
+//   psd-names.cpp     what OpenImageIO does not read of a PSD
 //   read-layered.cpp  OpenRaster and Krita documents: a zip of layers
 //
 // SPDX-License-Identifier: LGPL-3.0-or-later
@@ -63,6 +63,9 @@ std::unique_ptr<PictureFile> open_png (OIIO::Filesystem::IOProxy &stream, const 
 // The names of a PSD's layers in Unicode, from the lowest layer to the highest, "" where one has none; empty if the file
 // is damaged.
 std::vector<std::string> psd_layer_names (const std::string &path);
+
+// Whether a channel of a layer in a PSD is compressed by ZIP, which OpenImageIO does not know; false if the file is damaged.
+bool psd_has_zip (const std::string &path);
 
 // Throws if a canvas cannot have that size.
 void check_canvas (int64_t width, int64_t height);

@@ -6,6 +6,7 @@ SPDX-License-Identifier: LGPL-3.0-or-later
 import io
 import json
 import os
+import resource
 import shutil
 import struct
 import subprocess
@@ -15,7 +16,7 @@ import zlib
 import numpy as np
 from PIL import Image, ImageDraw, ImageOps, TiffImagePlugin
 
-from pictures import (HEIGHT, IN_A, IN_B, IN_PAGE, RED, RELATIONS, WIDTH, Test, at, drawing, scribbles, write_exr,
+from pictures import (COMMAND, HEIGHT, IN_A, IN_B, IN_PAGE, RED, RELATIONS, WIDTH, Test, at, drawing, scribbles, write_exr,
                       write_ora, write_psd)
 
 
@@ -315,11 +316,18 @@ class Drawings(Test):
         self.assertEqual(tuple(at(self.picture('l.png'), IN_A)), RED + (255,))
 
     def test_odd_names(self):
-        """Names that begin with a dash follow "--"; spaces, line breaks and bytes that are no UTF-8 may be in names."""
-        for name in ('-page.png', 'two words\n.png', os.fsdecode(b'page\xff.png')):
-            drawing().save(self.path(name))
+        """Names that begin with a dash follow "--"; spaces, line breaks, question marks and bytes that are no UTF-8
+        may be in names."""
+        for name in ('-page.png', 'two words\n.png', os.fsdecode(b'page\xff.png'), 'who?.png', 'who?x=1.gif', '?.psd'):
+            if name.endswith('psd'):
+                write_psd(self.path(name), (WIDTH, HEIGHT), layers()[:1])
+            else:
+                drawing().save(self.path(name))
             words = '--scribbles', 'scribbles.png', '--labels', 'l.png', '--', name
             self.celdepth('segment', *words)
+        self.celdepth('segment', *words[:3], 'l?.exr', '--', name)
+        os.rename(self.path('l?.exr'), self.path('l.exr'))
+        self.assertEqual(self.channel('l.exr', 'A').min(), 1)
         self.assertIn('The drawing is missing.', self.celdepth('segment', *words[:-1], code=2))
 
     def test_one_pixel_wide(self):
@@ -598,6 +606,49 @@ class BadInput(Test):
                              '"none.txt": No such file or directory.')):
             self.assertEqual(self.celdepth(*words, code=1), f'celdepth: Cannot read {said}\n')
         self.assertIn('Cannot read "bad.json": line 2 is no JSON.', self.celdepth(*deform, 'bad.json', code=1))
+
+    def test_closed_files(self):
+        """One that may not be read is not damaged; one that may not be written, or finds no space, is said in plain words."""
+        def run(*words, prepare):
+            done = subprocess.run([COMMAND, *words], cwd=self.folder, capture_output=True, text=True, check=False,
+                                  preexec_fn=prepare, restore_signals=False)
+            self.assertEqual(done.returncode, 1, f'{words}: {done.stderr}')
+            return done.stderr
+
+        def as_nobody():
+            if os.getuid() == 0:
+                os.setgid(65534)
+                os.setuid(65534)
+
+        def small(size=100):
+            resource.setrlimit(resource.RLIMIT_FSIZE, (size, size))
+
+        os.chmod(self.folder, 0o755)
+        words = 'popup', 'drawing.png', '--scribbles', 'scribbles.png'
+        before = sorted(os.listdir(self.folder))
+        for output in ('--depth d.png', '--depth d.exr', '--depth d.tif', '--depth d.npy', '--layers l.ora', '--layers l.exr',
+                       '--layers l', '--joined j.mpo'):
+            said = run(*words, *output.split(), prepare=small)
+            self.assertRegex(said, r'Cannot write "[a-z.]+": File too large\.\n$')
+        self.assertIn('File too large', run(*words, '--depth', 'd.png', prepare=lambda: small(0)))
+        self.assertEqual(sorted(os.listdir(self.folder)), before)
+        os.chmod(self.path('drawing.png'), 0)
+        self.assertEqual(run(*words, '--depth', '/tmp/none/d.png', prepare=as_nobody).count('\n'), 1)
+        os.mkdir(self.path('open'))
+        os.chmod(self.path('open'), 0o777)
+        self.assertEqual(run(*words, '--depth', 'open/d.png', prepare=as_nobody),
+                         'celdepth: Cannot read "drawing.png": it cannot be opened: Permission denied.\n')
+
+    def test_layers_compressed_by_zip(self):
+        write_psd(self.path('page.psd'), (WIDTH, HEIGHT), layers())
+        with open(self.path('page.psd'), 'rb') as file:
+            data = bytearray(file.read())
+        plane = layers()[0][3].getchannel('A').tobytes()
+        place = data.index(b'\0\0' + plane)
+        data[place + 1] = 2
+        with open(self.path('zip.psd'), 'wb') as file:
+            file.write(data)
+        self.fails('popup', 'zip.psd', '--depth', 'd.png', naming='"zip.psd": its layers are compressed by ZIP, which')
 
     def test_truncated_files(self):
         noise = np.random.default_rng(1).integers(0, 256, (64, 64, 3), dtype=np.uint8)
