@@ -17,7 +17,7 @@ static const char introduction[] =
   "# Settings\n\n"
   "<!-- Made from core/base/settings-table.c by `ninja -C build settings-reference`. -->\n\n"
   "Settings are properties of the GEGL operations (`hardness=0.5`) and options of the command (`--hardness 0.5`).\n"
-  "`gegl --info celdepth:popup` and `celdepth popup --help` list those of one operation or sub-command. Each has the same\n"
+  "`gegl --info celdepth:popup` and `celdepth popup --help` list those of one operation or command. Each has the same\n"
   "name and meaning everywhere. In the command the values of switches are `yes` (or `true`) and `no` (or `false`); a switch\n"
   "without a value is on. The default of `disparity` is 0.05 in `celdepth wiggle`.\n";
 
@@ -34,6 +34,18 @@ add (Page *page, const char *text)
   page->used += size;
 }
 
+/* A number without an exponent, as --help has it. */
+static void
+write_number (double value, char *text, size_t size)
+{
+  size_t n = (size_t) snprintf (text, size, "%.7f", value);
+
+  while (text[n - 1] == '0')
+    text[--n] = 0;
+  if (text[n - 1] == '.')
+    text[n - 1] = 0;
+}
+
 static void
 add_value (Page *page, const CeldSettingInfo *row, double value)
 {
@@ -44,7 +56,7 @@ add_value (Page *page, const CeldSettingInfo *row, double value)
     case CELD_SETTING_CHOICE: snprintf (text, sizeof text, "`%s`", row->choice[(int) value].nick); break;
     case CELD_SETTING_SWITCH: snprintf (text, sizeof text, "%s", value != 0 ? "yes" : "no"); break;
     case CELD_SETTING_COLOUR: snprintf (text, sizeof text, "`#%06x`", (unsigned) value); break;
-    default:                  snprintf (text, sizeof text, "%.10g", value);
+    default:                  write_number (value, text, sizeof text);
     }
   add (page, text);
 }

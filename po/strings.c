@@ -378,7 +378,7 @@ N_("The largest number of vertices. The mesh becomes coarser rather than have mo
 /* cell-size, label */
 N_("Cell size")
 /* cell-size, help */
-N_("The side of the squares that a drawing is embedded into, in pixels. Smaller squares follow smaller bends; 0 chooses a side by the size of the picture")
+N_("The side of the squares that a drawing is embedded into, in pixels; 0 chooses one by the size of the picture. Smaller squares follow smaller bends")
 /* stiffness, label */
 N_("Stiffness")
 /* stiffness, help */

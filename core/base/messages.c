@@ -25,8 +25,8 @@ celd_status_text (CeldStatus status)
     case CELD_BAD_VALUE:        return N_ ("A setting is outside its range, or the near level is not above the far "
                                            "level.");
     case CELD_BAD_RELATION:     return N_ ("The relations cannot be read.");
-    case CELD_NOTHING_TO_GO_BY: return N_ ("There is nothing to go by: scribble over the parts of the drawing, or draw "
-                                           "an arrow from a nearer to a farther part.");
+    case CELD_NOTHING_TO_GO_BY: return N_ ("There are no scribbles and no arrows: scribble over the parts of the drawing, "
+                                           "or draw an arrow from a nearer to a farther part.");
     }
   return "Unknown status.";
 }
@@ -140,7 +140,7 @@ celd_problem_text (const CeldProblem *p, const CeldPalette *palette, const CeldR
     case CELD_PROBLEM_STROKE_OVERRULED:
       snprintf (text, size, celd_in (translate, N_ ("The stroke%s at (%d, %d) was overruled: most of it went to %s. "
                                                     "Paint more of it there, close the contour between the two, or "
-                                                    "use hard strokes.")),
+                                                    "increase the hardness.")),
                 colour, p->x, p->y, receiver (palette, p->other, N_ ("another colour"), translate, other));
       break;
     case CELD_PROBLEM_REGION_UNREACHED:
@@ -150,7 +150,7 @@ celd_problem_text (const CeldProblem *p, const CeldPalette *palette, const CeldR
       break;
     case CELD_PROBLEM_COLOUR_LOST:
       snprintf (text, size, celd_in (translate, N_ ("The colour%s, painted at (%d, %d), has no region left. Paint more "
-                                                    "of it, or use hard strokes.")),
+                                                    "of it, or increase the hardness.")),
                 colour, p->x, p->y);
       break;
     case CELD_PROBLEM_ARROW_UNCLEAR:

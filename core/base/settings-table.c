@@ -460,8 +460,8 @@ static const CeldSettingInfo infos[] = {
 
   { .theme = "Registration",
     .name = "cell-size", .label = "Cell size", INTEGER (cell_size),
-    .help = "The side of the squares that a drawing is embedded into, in pixels. Smaller squares follow smaller bends; 0 "
-            "chooses a side by the size of the picture",
+    .help = "The side of the squares that a drawing is embedded into, in pixels; 0 chooses one by the size of the picture. "
+            "Smaller squares follow smaller bends",
     .usual = 0, .least = 0, .most = 1000, .shown = { 0, 100, 1, 10, .digits = 0 } },
 
   { .name = "stiffness", .label = "Stiffness", INTEGER (stiffness),

@@ -120,6 +120,8 @@ bool cli_error (const char *format, ...) G_GNUC_PRINTF (1, 2);
 /* Keeps messages from here on, and then shows or discards what was kept, if anything was. */
 void cli_say_keep (void);
 void cli_say_kept (bool show);
+/* Begins messages with what they are about; NULL: with nothing.  Borrows the text. */
+void cli_say_about (const char *what);
 /* Leaves a folder out of the names in messages; NULL: none.  Borrows the name. */
 void cli_say_without (const char *folder);
 /* A text of core in the language of the locale, a CeldTranslate: what is said about drawings. */

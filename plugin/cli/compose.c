@@ -72,11 +72,21 @@ cut (const CeldColours *art, bool complete, CliRun *run, Drawing *d)
   return status;
 }
 
-/* Prints which drawing messages before it were about. */
-static bool
-about (const Compose *c, const CliFragment *fragment)
+/* Has messages say which drawing they are about, until cli_say_about (NULL).  Free the text then. */
+static char *
+begin_about (const Compose *c, const CliFragment *fragment)
 {
-  return cli_error ("That was about \"%s\" in \"%s\".", fragment->name, c->scene.path);
+  char *place = g_strdup_printf ("\"%s\", \"%s\"", c->scene.path, fragment->name);
+
+  cli_say_about (place);
+  return place;
+}
+
+static void
+end_about (char *place)
+{
+  cli_say_about (NULL);
+  g_free (place);
 }
 
 /* Reads the handles of a drawing; they cannot change its order. */
@@ -96,6 +106,7 @@ read_drawing (Compose *c, const CliFragment *fragment, Drawing *d)
 {
   CliLayers   input = { 0 };
   CeldColours art = { 0 };
+  char       *place = begin_about (c, fragment);
   bool        good;
 
   d->session = celd_session_new ();
@@ -106,27 +117,27 @@ read_drawing (Compose *c, const CliFragment *fragment, Drawing *d)
   cli_layers_clear (&input);
   good = good && cli_run_finish (&c->run, cut (&art, c->options->settings.complete, &c->run, d));
   g_free (art.data);
-  return good || about (c, fragment);
+  end_about (place);
+  return good;
 }
 
 /* Prints contradictions and problems of a drawing; the exit code. */
 static int
 report_drawing (const Compose *c, const CliFragment *fragment, const Drawing *d)
 {
-  const CeldProblems *problems = celd_session_problems (d->session);
-  char                text[1000];
-  int                 code = cli_finish (&fragment->options, &(CliReport) {
+  char  text[1000];
+  char *place = begin_about (c, fragment);
+  int   code = cli_finish (&fragment->options, &(CliReport) {
     .palette   = celd_session_palette (d->session),
     .relations = celd_session_relations (d->session),
     .order     = d->order,
-    .problems  = problems,
+    .problems  = celd_session_problems (d->session),
   });
 
   celd_pose_text (&d->pose, cli_in_language, text, sizeof text);
   if (text[0] && !fragment->options.quiet)
     cli_say ("%s", text);
-  if (code != CLI_DONE || (!fragment->options.quiet && (text[0] || (problems && problems->n))))
-    about (c, fragment);
+  end_about (place);
   return code;
 }
 

@@ -133,7 +133,7 @@ cli_check_grey (const char *path)
 
   celd_io_close (file);
   if (good && picture.data && celd_paint_is_coloured (&picture))
-    good = cli_error ("\"%s\" is coloured, but depth and levels are grey, such as popup writes them with --levels or "
+    good = cli_error ("\"%s\" is coloured, but depth and levels are grey, as popup writes them with --levels or "
                       "--depth.", path);
   g_free (picture.data);
   return good;
@@ -143,7 +143,7 @@ bool
 cli_check_regions (const char *path, const CeldLabels *regions, const CeldPalette *palette)
 {
   return celd_are_labels (regions, palette) ||
-         cli_error ("\"%s\" looks like a photograph: regions are flat colours, such as segment writes them with "
+         cli_error ("\"%s\" looks like a photograph: regions are flat colours, as segment writes them with "
                     "--labels.", path);
 }
 

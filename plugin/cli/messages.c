@@ -37,11 +37,21 @@ cli_say_without (const char *folder)
   hidden_folder = folder;
 }
 
+static const char *place; /* what messages are about; NULL: they say it themselves */
+
+void
+cli_say_about (const char *what)
+{
+  place = what;
+}
+
 static void
 say (const char *format, va_list arguments)
 {
-  char *text = g_strdup_vprintf (format, arguments);
+  char *plain = g_strdup_vprintf (format, arguments), *text = place ? g_strconcat (place, ": ", plain, NULL) : plain;
 
+  if (place)
+    g_free (plain);
   if (hidden_folder)
     {
       char  *prefix = g_strconcat (hidden_folder, G_DIR_SEPARATOR_S, NULL);

@@ -142,9 +142,9 @@ run_once (Watch *watch, const CliOptions *options, int (*run) (void *data), void
     }
   cli_say_kept (true);
   if (!options->quiet && code == CLI_FAILED)
-    cli_say ("Nothing was made. Waiting until \"%s\" is saved; Ctrl+C ends.", options->input);
+    cli_say ("Nothing was made. Waiting for \"%s\" to be saved; press Ctrl+C to stop.", options->input);
   else if (!options->quiet)
-    cli_say ("Made in %.1f s. Waiting until \"%s\" is saved; Ctrl+C ends.",
+    cli_say ("Made in %.1f s. Waiting for \"%s\" to be saved; press Ctrl+C to stop.",
              (double) (g_get_monotonic_time () - began) / 1e6, options->input);
   return true;
 }

@@ -210,7 +210,7 @@ class Compose(Test):
                 ({'fragments': [{**good, 'hidden': 'h.png'}]}, '--complete yes'),
                 ({'fragments': [{**good, 'drawing': 'missing.png'}]}, 'missing.png'),
                 ({'fragments': [{**good, 'scribbles': 'bar.txt'}]}, 'bar.txt'),
-                ({'fragments': [{'drawing': 'drawing.png'}]}, 'about "drawing"'),
+                ({'fragments': [{'drawing': 'drawing.png'}]}, '"scene.json", "drawing": There are no scribbles'),
                 ({'fragments': [good], 'width': 0, 'height': 9}, '"width" must be a whole number from 1 to 20000'),
                 ({'fragments': [good], 'width': 9, 'height': 20001}, '"height" must be a whole number'),
                 ({'fragments': [good], 'width': 9.5, 'height': 9}, '"width" must be'),

@@ -99,7 +99,7 @@ class Layers(Test):
         self.fails('popup', 'no-drawing.psd', '--depth', 'd.png',
                    naming='no layer named "drawing". Its layers are "Lines", "scribbles"')
         write_psd(self.path('no-scribbles.psd'), (WIDTH, HEIGHT), layers()[:1])
-        self.fails('popup', 'no-scribbles.psd', '--depth', 'd.png', naming='nothing to go by')
+        self.fails('popup', 'no-scribbles.psd', '--depth', 'd.png', naming='no scribbles and no arrows')
 
     def test_layers_with_other_names(self):
         """A PSD with other layers is an ordinary picture: its merged one (white here)."""
@@ -691,8 +691,8 @@ class BadInput(Test):
 
     def test_neither_scribbles_nor_arrows(self):
         Image.new('RGBA', (WIDTH, HEIGHT)).save(self.path('blank.png'))
-        self.fails('popup', 'drawing.png', '--depth', 'd.png', naming='nothing to go by')
-        self.fails('popup', 'drawing.png', '--scribbles', 'blank.png', '--depth', 'd.png', naming='nothing to go by')
+        self.fails('popup', 'drawing.png', '--depth', 'd.png', naming='no scribbles and no arrows')
+        self.fails('popup', 'drawing.png', '--scribbles', 'blank.png', '--depth', 'd.png', naming='no scribbles and no arrows')
 
     def test_unreadable_arrow_path(self):
         text = self.popup('--arrow-path', 'M 1,1 L 2,2\nL 3;4', '--depth', 'd.png', code=2)

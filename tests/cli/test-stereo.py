@@ -194,7 +194,7 @@ class Stereo(Test):
         self.celdepth('stereo', 'drawing.png', code=2)
         self.stereo('--left', 'l.npy', '--disparity', '0.3', code=2)
         self.stereo('--left', 'l.npy', '--stereo', 'magic', code=2)
-        self.fails('stereo', 'drawing.png', '--left', 'l.png', naming='nothing to go by')
+        self.fails('stereo', 'drawing.png', '--left', 'l.png', naming='no scribbles and no arrows')
         self.fails('stereo', 'drawing.png', '--scribbles', 'scribbles.png', '--colours', 'none.png', '--left', 'l.png',
                    naming='none.png')
 

@@ -259,6 +259,8 @@ class Usage(Test):
         self.assertEqual(self.celdepth('help', 'popup'), self.celdepth('popup', '--help'))
         self.assertEqual(self.celdepth('help', '--help'), self.celdepth('help'))
         self.wrong('help', 'popup', 'extra', naming='Give one command to help')
+        self.assertIn('0 chooses one by the size of the picture (default: 0)',
+                      ' '.join(self.celdepth('help', 'register').split()))
         self.assertIn("There is no command 'shad'. Did you mean 'shade'?", self.celdepth('help', 'shad', code=2))
 
     def test_did_you_mean(self):

@@ -189,7 +189,7 @@ class Watch(Test):
         write_ora(self.path('new.ora'), (WIDTH, HEIGHT), '<stack><layer name="drawing" src="d.png"/></stack>',
                   {'d.png': data.getvalue()})
         os.replace(self.path('new.ora'), self.path('page.ora'))
-        self.wait_for('nothing to go by', 1)
+        self.wait_for('no scribbles and no arrows', 1)
         self.ends()
 
 

@@ -257,7 +257,7 @@ input_without_sense_is_told_and_then_forgotten (void)
   g_clear_object (&request->input.layer[CELD_LAYER_SCRIBBLES].buffer);
   g_clear_object (&request->input.layer[CELD_LAYER_ARROWS].buffer);
   CHECK (ask (&seen, request));
-  CHECK (seen.error && strstr (seen.error, "nothing to go by"));
+  CHECK (seen.error && strstr (seen.error, "no scribbles and no arrows"));
   request = page_request (BIT (REGIONS));
   g_clear_object (&request->input.layer[CELD_LAYER_DRAWING].buffer);
   CHECK (ask (&seen, request));

@@ -286,7 +286,7 @@ input_without_sense_is_refused (void)
   CHECK (refused (&input, "outside its range"));
   input = page_input ();
   input.layer[CELD_LAYER_SCRIBBLES].buffer = input.layer[CELD_LAYER_ARROWS].buffer = NULL;
-  CHECK (refused (&input, "nothing to go by"));
+  CHECK (refused (&input, "no scribbles and no arrows"));
   g_object_unref (page);
 }
 
