@@ -62,9 +62,11 @@ CELD_API bool celd_is_coloured_strokes (const CeldPaint *paint);
  * not. */
 CELD_API bool celd_paint_is_coloured (const CeldPaint *paint);
 
-/* Whether labels of flat colours, and finite levels, can be such: no photograph can.  For hosts, as those above. */
+/* Whether labels of flat colours, finite levels, and finite depth, smooth or flat, can be such: no photograph with grain or
+ * texture can.  For hosts, as those above. */
 CELD_API bool celd_are_labels (const CeldLabels *labels, const CeldPalette *palette);
 CELD_API bool celd_are_levels (const CeldPlane *levels);
+CELD_API bool celd_is_depth (const CeldPlane *depth);
 
 /* Reads painted scribbles: seed labels (0 where nothing is painted), and the palette of their colours, of origin
  * CELD_FROM_SCRIBBLE, by decreasing painted area.  Pixels with alpha below one half count as not painted, and in a

@@ -1,7 +1,7 @@
-/* Pictures that were given as labels or levels, and are photographs.
+/* Pictures that were given as labels, levels or depth, and are photographs.
  *
  * Labels and levels are flat: a label has many pixels, and most neighbours have one level, or nearly so where depth was
- * made smooth.
+ * made smooth.  Smooth depth may slope, but hardly anywhere changes its slope: a photograph has grain and texture.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -11,6 +11,8 @@
 
 #define FEW_LABELS 1000 /* fewer may have any size; chosen */
 #define LABEL_AREA 20   /* pixels of a label, more on average; chosen */
+#define BENDS      150  /* of the range of depth; a slope that changes by more than one in a pixel is a bend, which rounding
+                         * to 8 bits is not; chosen */
 #define STEPS      300  /* of the range of levels; neighbours that differ by more than one are a change; chosen */
 
 bool
@@ -35,17 +37,36 @@ count_changes (const CeldPlane *levels, float largest)
   return changes;
 }
 
+static float
+range_of (const CeldPlane *plane)
+{
+  float least = INFINITY, most = -INFINITY;
+
+  for (int y = 0; y < plane->height; y++)
+    for (int x = 0; x < plane->width; x++)
+      {
+        least = fminf (least, CELD_AT (plane, x, y));
+        most  = fmaxf (most, CELD_AT (plane, x, y));
+      }
+  return most - least;
+}
+
 bool
 celd_are_levels (const CeldPlane *levels)
 {
   size_t n = (size_t) levels->width * (size_t) levels->height;
-  float  least = INFINITY, most = -INFINITY;
 
-  for (int y = 0; y < levels->height; y++)
-    for (int x = 0; x < levels->width; x++)
-      {
-        least = fminf (least, CELD_AT (levels, x, y));
-        most  = fmaxf (most, CELD_AT (levels, x, y));
-      }
-  return 10 * count_changes (levels, (most - least) / STEPS) < 3 * n; /* chosen */
+  return 10 * count_changes (levels, range_of (levels) / STEPS) < 3 * n; /* chosen */
+}
+
+bool
+celd_is_depth (const CeldPlane *depth)
+{
+  size_t n = (size_t) depth->width * (size_t) depth->height, bends = 0;
+  float  largest = range_of (depth) / BENDS;
+
+  for (int y = 0; y < depth->height; y++)
+    for (int x = 1; x + 1 < depth->width; x++)
+      bends += fabsf (CELD_AT (depth, x - 1, y) - 2 * CELD_AT (depth, x, y) + CELD_AT (depth, x + 1, y)) > largest;
+  return 10 * bends < 3 * n; /* as for levels */
 }

@@ -268,6 +268,7 @@ bool cli_check_grey            (const char *path);                           /* 
 bool cli_check_numbers         (const char *path, const CeldPlane *values);  /* all are finite */
 bool cli_check_colours         (const char *path, int width, int height, const float *rgba); /* where they are seen */
 bool cli_check_levels          (const char *path, const CeldPlane *levels);  /* no photograph */
+bool cli_check_depth           (const char *path, const CeldPlane *depth);   /* no photograph */
 bool cli_check_regions         (const char *path, const CeldLabels *regions, const CeldPalette *palette);
 void cli_warn_if_flat          (const char *path, const CeldPlane *levels);  /* that all levels are the same */
 

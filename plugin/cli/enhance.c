@@ -46,7 +46,7 @@ run_enhance (const CliOptions *options)
   bool        good;
 
   cli_run_begin (&run, options, "reading shadows writing");
-  good = cli_read_levels (options->input, &levels) && read_art (options, &levels, &art) &&
+  good = cli_read_levels (options->input, &levels) && cli_check_depth (options->input, &levels) && read_art (options, &levels, &art) &&
          cli_plane_new (levels.width, levels.height, &change);
   if (good)
     {

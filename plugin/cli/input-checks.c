@@ -128,8 +128,8 @@ cli_check_grey (const char *path)
   CeldPaint   picture = { 0 };
   CeldIoError error;
   CeldIoFile *file = cli_is_npy (path) ? NULL : celd_io_open (path, &error);
-  bool        encoded = file && !celd_io_part (file, 0)->grey && !celd_io_part (file, 0)->linear;
-  bool        good = !encoded || cli_read_paint (file, 0, path, &picture);
+  bool        colours = file && !celd_io_part (file, 0)->grey;
+  bool        good = !colours || cli_read_paint (file, 0, path, &picture);
 
   celd_io_close (file);
   if (good && picture.data && celd_paint_is_coloured (&picture))
@@ -153,6 +153,14 @@ cli_check_levels (const char *path, const CeldPlane *levels)
   return celd_are_levels (levels) ||
          cli_error ("\"%s\" looks like a photograph: levels have one value for each part, such as popup writes them "
                     "with --levels.", path);
+}
+
+bool
+cli_check_depth (const char *path, const CeldPlane *depth)
+{
+  return celd_is_depth (depth) ||
+         cli_error ("\"%s\" looks like a photograph: depth is flat or smooth in each part, as popup writes it with "
+                    "--depth.", path);
 }
 
 void

@@ -69,13 +69,13 @@ write_relief (const CliOptions *options, const CeldRelief *relief, CliLayers *in
 
 /* ------------------------------------------------------------------ of levels */
 
-/* Reads smooth depth if --depth is given. */
+/* Reads smooth depth if it is given. */
 static bool
 read_depth (const CliOptions *options, const CeldPlane *levels, CeldPlane *depth)
 {
   if (!options->smooth_depth)
     return true;
-  if (!cli_read_levels (options->smooth_depth, depth))
+  if (!cli_read_levels (options->smooth_depth, depth) || !cli_check_depth (options->smooth_depth, depth))
     return false;
   return (depth->width == levels->width && depth->height == levels->height) ||
          cli_error ("\"%s\" has %d x %d pixels, but \"%s\" has %d x %d; give both the same size.",

@@ -68,7 +68,8 @@ check (CliOptions *options)
 static bool
 read_depth (const CliOptions *options, Shade *s)
 {
-  return !options->smooth_depth || cli_hint_read (options->smooth_depth, &s->layers, &s->depth);
+  return !options->smooth_depth || (cli_hint_read (options->smooth_depth, &s->layers, &s->depth) &&
+                                    cli_check_depth (options->smooth_depth, &s->depth));
 }
 
 static bool

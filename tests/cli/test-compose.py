@@ -220,7 +220,7 @@ class Compose(Test):
                 self.fails_with(naming)
         with open(self.path('scene.json'), 'w', encoding='utf-8') as file:
             file.write('{ "fragments": [\n  { "drawing" "a.png" } ] }')
-        self.fails_with(':2:')
+        self.fails_with('"scene.json": line 2 is no JSON')
         os.unlink(self.path('scene.json'))
         self.fails_with('scene.json')
 

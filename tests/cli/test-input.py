@@ -418,6 +418,7 @@ class Nonsense(Test):
 
     def test_colours_or_a_photograph_as_levels(self):
         self.popup('--labels', 'labels.png', '--relations', RELATIONS)
+        self.popup('--labels', 'labels.exr', '--relations', RELATIONS)
         rough = np.random.default_rng(2).integers(0, 256, (HEIGHT, WIDTH, 3), dtype=np.uint8)
         Image.fromarray(rough).save(self.path('photo.png'))
         Image.fromarray(rough[..., 0]).save(self.path('grey.png'))
@@ -426,7 +427,16 @@ class Nonsense(Test):
             for name in 'labels.png', 'photo.png':
                 self.fails(command, name, '--drawing', 'drawing.png', *words, naming='is coloured')
             self.fails(command, 'grey.png', '--drawing', 'drawing.png', *words, naming='looks like a photograph')
-        self.fails('enhance', 'labels.png', '--view', 'v.png', naming='is coloured')
+        for name in ('labels.png', 'labels.exr'):
+            self.fails('enhance', name, '--view', 'v.png', naming='is coloured')
+        self.popup('--levels', 'levels.npy', '--depth', 'depth.png', '--relations', RELATIONS)
+        for command, *words in (('shade', '--shading', 's.png'), ('relief', '--height', 'h.png')):
+            words = command, 'levels.npy', '--drawing', 'drawing.png', '--smooth-depth', *words
+            self.fails(*words[:5], 'grey.png', *words[5:], naming='"grey.png" looks like a photograph')
+            self.fails(*words[:5], 'labels.exr', *words[5:], naming='"labels.exr" is coloured')
+            self.celdepth(*words[:5], 'depth.png', *words[5:])
+        self.fails('enhance', 'grey.png', '--view', 'v.png', naming='"grey.png" looks like a photograph')
+        self.celdepth('enhance', 'depth.png', '--view', 'v.png')
         self.fails('order', 'photo.png', '--unexpanded-levels', 'l.png', naming='looks like a photograph')
 
 

@@ -55,6 +55,24 @@ grainy_pictures_are_none (void)
   CHECK (!celd_are_levels (&left));
 }
 
+/* Steep on a small page, and in 8 bits; a picture with a little grain on top of it is none. */
+static void
+smooth_depth_is_depth (void)
+{
+  CeldPlane depth = { SIDE, SIDE, SIDE, pixels };
+
+  for (int i = 0; i < SIDE * SIDE; i++)
+    pixels[i] = roundf (255 * (1 - hypotf ((float) (i % SIDE) - 80, (float) (i / SIDE) - 100) / 160)) / 255;
+  CHECK (celd_is_depth (&depth));
+  CHECK (!celd_are_levels (&depth));
+  for (int i = 0; i < SIDE * SIDE; i++)
+    pixels[i] += 0.04f * noise ();
+  CHECK (!celd_is_depth (&depth));
+  for (int i = 0; i < SIDE * SIDE; i++)
+    pixels[i] = (float) (i % SIDE / 20);
+  CHECK (celd_is_depth (&depth));
+}
+
 static void
 labels_have_many_pixels (void)
 {
@@ -76,6 +94,7 @@ main (void)
 {
   RUN (flat_and_smooth_levels_are_levels);
   RUN (grainy_pictures_are_none);
+  RUN (smooth_depth_is_depth);
   RUN (labels_have_many_pixels);
   return DONE;
 }
