@@ -11,7 +11,8 @@ import math
 import os
 import sys
 
-from PIL import Image, ImageDraw
+import numpy as np
+from PIL import Image, ImageDraw, ImageFilter
 
 SCALE = 4                                  # drawn this much larger, then reduced: antialiased ink
 RED, BLUE, GREEN = (255, 0, 0), (0, 0, 255), (0, 160, 0)
@@ -309,9 +310,72 @@ def stroke_on_contour():
     return f
 
 
+def pencil(grey, noise):
+    """A ring of a pixel and a fifth in a hard pencil, on grainy paper, inside a box of black ink."""
+    f = Figure()
+    f.shape(box(20, 20, 220, 180), 6)
+    around = [2 * math.pi * i / 200 for i in range(201)]
+    ring = [((120 + 80 * math.cos(a)) * SCALE, (100 + 60 * math.sin(a)) * SCALE) for a in around]
+    f.ink.line(ring, grey, round(1.2 * SCALE))
+    clean = np.asarray(f.page.resize(f.size, Image.BOX), float)
+    grain = np.random.default_rng(grey).normal(0, 255 * noise, clean.shape)
+    page = Image.fromarray(np.clip(0.96 * clean + grain, 0, 255).round().astype(np.uint8))
+    f.page = page.resize(f.page.size, Image.NEAREST)
+    f.stroke('scribbles', [(100, 95), (140, 105)], A)
+    f.stroke('scribbles', [(30, 30), (210, 30)], B)
+    f.stroke('scribbles', [(8, 10), (8, 190)], C)
+    return f
+
+
+def pencil_on_smooth_paper():
+    return pencil(190, 0.005)
+
+
+def pencil_on_rough_paper():
+    return pencil(165, 0.01)
+
+
+def cover(pen):
+    """The cover of a book in a pen of 3 pixels; its lower edge lies on the outline of the pages, in a thick pen."""
+    f = Figure()
+    f.shape(box(60, 120, 180, 170), pen, 1)
+    f.shape(box(60, 50, 180, 120), 3, 2)
+    mask = ImageDraw.Draw(f.owner)
+    for index, width in (1, 5), (2, 3):        # what is left of the thick outline beside the thin line is the pages'
+        mask.line([(60, 120), (180, 120)], index, width)
+    f.stroke('scribbles', [(80, 85), (160, 85)], A)
+    f.stroke('scribbles', [(80, 145), (160, 145)], B)
+    f.stroke('scribbles', [(10, 15), (230, 15)], C)
+    f.relations = '#dc3c3c > #3c8cdc > #f0b428'
+    return f
+
+
+def cover_on_thick():
+    return cover(8)
+
+
+def cover_on_thicker():
+    return cover(12)
+
+
+def soft_on_white():
+    """Strokes of a soft brush of half opacity, flattened on white."""
+    f = Figure()
+    f.shape(box(20, 30, 220, 170))
+    f.line([(120, 30), (120, 170)])
+    white = Image.new('RGB', f.size, 'white')
+    for points, colour in ([(40, 60), (100, 140)], A), ([(140, 60), (200, 140)], B), ([(15, 14), (225, 14)], C):
+        brush = Image.new('L', f.size)
+        ImageDraw.Draw(brush).line(points, 128, 12)
+        white.paste(colour, mask=brush.filter(ImageFilter.GaussianBlur(3)))
+    f.layers['scribbles'] = white
+    return f
+
+
 FIGURES = [two_arrows, thick, contours, two_characters, frame, limbs, cycle, broken, pinched_little, pinched_much,
            severed, close_up, forgotten, stopped_near, stopped_farther, stopped_far, open_bay, vein, notch, hairline,
-           stroke_on_contour]
+           stroke_on_contour, pencil_on_smooth_paper, pencil_on_rough_paper, cover_on_thick, cover_on_thicker,
+           soft_on_white]
 
 
 if __name__ == '__main__':

@@ -201,9 +201,25 @@ def stroke_on_contour(run):
         (r.levels[:97] < r.level(120, 145)).all()
 
 
+def soft_on_white(run):
+    r = run()
+    yield 'three regions, whatever tints a stroke has', len(np.unique(r.labels.reshape(-1, 4), axis=0)) == 3
+    yield 'each a whole room', all((r.labels[40:160, x:x + 80] == r.labels[100, x + 40]).all() for x in (30, 130))
+    yield 'nothing is said about them', not r.report['problems']
+
+
+def cover(run):
+    r = run()
+    near, pages = r.level(120, 85), r.level(120, 145)
+    ink = (r.drawing < 64) & (r.owner != 255)
+    right = np.where(r.owner == 2, r.levels == near, r.levels == pages)
+    yield 'order', near > pages > r.level(5, 5)
+    yield 'each sheet has its own line', all(right[ink & (r.owner == k)].mean() >= 0.95 for k in (1, 2))
+
+
 OUTCOMES = [two_arrows, thick, contours, two_characters, frame, limbs, cycle, broken, pinched, pinched,
             severed, close_up, forgotten, stopped_short, stopped_short, stopped_short, no_room, no_room, no_room, hairline,
-            stroke_on_contour]
+            stroke_on_contour, hairline, hairline, cover, cover, soft_on_white]
 
 
 def main():
