@@ -5,7 +5,8 @@
  * 1. The width of lines, and whether they are darker or lighter than fills (line-width.c).
  * 2. Contrast: of each channel against its closing by a window a little wider than lines, which is the paper or the
  *    fill around; the largest of the three.
- * 3. Fills that are narrow between lines are told apart from wide lines (narrow-fills.c).
+ * 3. Fills that are narrow between lines are told apart from wide lines (narrow-fills.c), by the distance from the
+ *    colour of lines if most have one.
  * 4. Strength: the contrast, divided by that of the core of the line.
  * 5. Where lines meet, and where strokes are thicker than most, they are wider than the window.  There, what has the
  *    colour of lines (line-tones.c) and fits into the widest window is a line as well (thick-lines.c).
@@ -25,6 +26,7 @@
 #define GRAINLESS     2      /* noise up to this, of 255, comes from rounding; chosen */
 #define FAINTEST_LINE 20     /* of 255: least contrast of the core of a line; chosen */
 #define COMPRESSED    8      /* pixels: a block of JPEG */
+#define TONE_ROWS     4      /* of which one is looked at for tones; chosen */
 #define EDGE          2      /* pixels from the core of a line to its antialiased edge */
 
 typedef struct
@@ -193,7 +195,49 @@ find_faintest (Lines *l, int *faintest)
   return CELD_OK;
 }
 
-/* Takes what lies narrow between lines out of the contrast.  l->level holds the lightness, and is overwritten. */
+/* The largest contrast of a pixel and those around it. */
+static int
+most_around (const Lines *l, int x, int y)
+{
+  int most = 0;
+
+  for (int v = y > 0 ? y - 1 : 0; v <= y + 1 && v < l->contrast.height; v++)
+    for (int u = x > 0 ? x - 1 : 0; u <= x + 1 && u < l->contrast.width; u++)
+      most = CELD_AT (&l->contrast, u, v) > most ? CELD_AT (&l->contrast, u, v) : most;
+  return most;
+}
+
+/* Counts the tones of pixels with more contrast than those around: most of them are in lines. */
+static void
+count_tones (Lines *l, int faintest)
+{
+  for (int y = 0; y < l->contrast.height; y += TONE_ROWS)
+    for (int left = 0; left < l->contrast.width; left += CELD_PIECE)
+      {
+        int right = left + CELD_PIECE < l->contrast.width ? left + CELD_PIECE : l->contrast.width;
+
+        if (celd_any_byte_reaches (&CELD_AT (&l->contrast, left, y), (size_t) (right - left), faintest)) /* few do */
+          for (int x = left; x < right; x++)
+            if (CELD_AT (&l->contrast, x, y) >= faintest && CELD_AT (&l->contrast, x, y) == most_around (l, x, y))
+              celd_line_tone_count (&l->tones, l->channel, (size_t) y * l->contrast.stride + (size_t) x);
+      }
+}
+
+/* If most lines have one colour, l->level, which holds the lightness, gets the distance from that colour: in it all
+ * fills are lighter than lines. */
+static void
+measure_distance_from_lines (Lines *l, int faintest)
+{
+  uint8_t tone[3];
+
+  count_tones (l, faintest);
+  if (celd_main_line_tone (&l->tones, tone))
+    celd_tone_distance (l->channel, tone, pixels (l), l->level.data);
+  memset (&l->tones, 0, sizeof l->tones);
+}
+
+/* Takes what lies narrow between lines out of the contrast.  l->level holds the lightness, or the distance from lines,
+ * and is overwritten. */
 static CeldStatus
 clear_narrow_fills (Lines *l, int radius, int faintest)
 {
@@ -207,18 +251,6 @@ clear_narrow_fills (Lines *l, int radius, int faintest)
 }
 
 /* ------------------------------------------------------------------ strength */
-
-/* The largest contrast of a pixel and those around it. */
-static int
-most_around (const Lines *l, int x, int y)
-{
-  int most = 0;
-
-  for (int v = y > 0 ? y - 1 : 0; v <= y + 1 && v < l->contrast.height; v++)
-    for (int u = x > 0 ? x - 1 : 0; u <= x + 1 && u < l->contrast.width; u++)
-      most = CELD_AT (&l->contrast, u, v) > most ? CELD_AT (&l->contrast, u, v) : most;
-  return most;
-}
 
 /* If the pixel is in the middle of a line, sets l->level to its contrast, and counts its tone where that is of the line
  * alone.  None around has much more contrast (lines under a pixel wide are paler where they lie between two rows of
@@ -335,13 +367,16 @@ find_lines (Lines *l, CeldDrawing *drawing)
   CeldStatus   status = measure_noise (l) > GRAINLESS ? remove_noise (l) : CELD_OK;
 
   if (status == CELD_OK)
-    status = celd_line_window (l->channel, l->broadest, &first, l->work, &l->closed, &l->level, &radius);
+    status = celd_line_window (l->channel, l->broadest, &first, l->work, &l->closed, &l->contrast, &l->level,
+                               &radius);
   if (status == CELD_OK)
     status = measure_contrast (l, radius);
   if (status == CELD_OK)
     status = find_faintest (l, &faintest);
-  if (status == CELD_OK)
-    status = clear_narrow_fills (l, radius, faintest);
+  if (status != CELD_OK)
+    return status;
+  measure_distance_from_lines (l, faintest);
+  status = clear_narrow_fills (l, radius, faintest);
   if (status != CELD_OK)
     return status;
   find_cores (l, radius, faintest);

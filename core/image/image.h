@@ -193,9 +193,9 @@ bool celd_sprite_lines (const CeldMask channel[3], bool only_coloured, void *wor
 
 /* line-width.c: the radius of the window by which the lines of a drawing are found, in the closing of its channels.
  * If lines are lighter than fills, inverts the channels.  Sets `lightness` to that of the channels, inverted as well.
- * `broadest` limits the radius; `work` is for twice that, `closed` is overwritten; all have one size. */
+ * `broadest` limits the radius; `work` is for twice that, `closed` and `clear` are overwritten; all have one size. */
 CeldStatus celd_line_window (CeldMask channel[3], int broadest, const CeldHost *host, void *work, CeldMask *closed,
-                             CeldMask *lightness, int *radius);
+                             CeldMask *clear, CeldMask *lightness, int *radius);
 
 /* narrow-fills.c: sets `contrast` to 0 where a fill is narrow between lines: lighter than its opening by `radius`, by a
  * contrast of `faintest` at least.  `lightness`, `light` and `fill` are overwritten; `work` is for this radius. */
@@ -215,6 +215,11 @@ typedef struct
 void celd_line_tone_count (CeldLineTones *tones, const CeldMask channel[3], size_t pixel);
 void celd_line_tones_blur (CeldLineTones *tones);
 bool celd_is_line_tone (const CeldLineTones *tones, const CeldMask channel[3], size_t pixel);
+
+/* line-tones.c: sets `tone` to the colour that most cores have, before counts are blurred; returns whether there is
+ * one.  Then the distance of n pixels from a tone: the largest of the channels', less that of colours of one tone. */
+bool celd_main_line_tone (const CeldLineTones *tones, uint8_t tone[3]);
+void celd_tone_distance (const CeldMask channel[3], const uint8_t tone[3], size_t n, uint8_t *distance);
 
 /* thick-lines.c: sets `thick` to 1 where some channel has at least half of the contrast of black against its closing by
  * `radius`, and none is lighter than its opening, by a contrast of `faintest`, 1 .. 254; else to 0.  `work` is for this

@@ -8,7 +8,9 @@
 #include "image/image.h"
 
 #define TONES        CELD_LINE_TONES
+#define TONE_WIDTH   (256 / TONES)
 #define LEAST_COMMON 100 /* a colour is that of lines if one core in so many has it; chosen */
+#define LEAST_MAIN   2   /* a colour is that of lines in general if one core in so many has it; chosen */
 
 static size_t
 tone_of (const CeldMask channel[3], size_t pixel)
@@ -25,6 +27,57 @@ celd_line_tone_count (CeldLineTones *tones, const CeldMask channel[3], size_t pi
 {
   tones->cores++;
   tones->count[tone_of (channel, pixel)]++;
+}
+
+bool
+celd_main_line_tone (const CeldLineTones *tones, uint8_t tone[3])
+{
+  size_t of[3], most = 0, sum[3] = { 0 }, near = 0;
+
+  for (size_t i = 1; i < TONES * TONES * TONES; i++)
+    most = tones->count[i] > tones->count[most] ? i : most;
+  for (size_t i = 0; i < TONES * TONES * TONES; i++)
+    {
+      bool inside = true;
+
+      for (size_t c = 0, step = TONES * TONES; c < 3; c++, step /= TONES)
+        {
+          size_t middle = most / step % TONES;
+
+          of[c]  = i / step % TONES;
+          inside = inside && of[c] + 1 >= middle && of[c] <= middle + 1;
+        }
+      near += inside ? tones->count[i] : 0;
+      for (size_t c = 0; c < 3 && inside; c++)
+        sum[c] += tones->count[i] * (of[c] * TONE_WIDTH + TONE_WIDTH / 2);
+    }
+  for (size_t c = 0; c < 3 && near; c++)
+    tone[c] = (uint8_t) (sum[c] / near);
+  return near && LEAST_MAIN * near >= (size_t) tones->cores;
+}
+
+CELD_CLONES static void
+measure_distance (const uint8_t *restrict red, const uint8_t *restrict green, const uint8_t *restrict blue,
+                  const uint8_t tone[3], size_t n, uint8_t *restrict distance)
+{
+  uint8_t r = tone[0], g = tone[1], b = tone[2];
+
+  for (size_t i = 0; i < n; i++)
+    {
+      uint8_t dr = red[i] > r ? (uint8_t) (red[i] - r) : (uint8_t) (r - red[i]);
+      uint8_t dg = green[i] > g ? (uint8_t) (green[i] - g) : (uint8_t) (g - green[i]);
+      uint8_t db = blue[i] > b ? (uint8_t) (blue[i] - b) : (uint8_t) (b - blue[i]);
+      uint8_t most = dr > dg ? dr : dg;
+
+      most = most > db ? most : db;
+      distance[i] = most > TONE_WIDTH / 2 ? (uint8_t) (most - TONE_WIDTH / 2) : 0;
+    }
+}
+
+void
+celd_tone_distance (const CeldMask channel[3], const uint8_t tone[3], size_t n, uint8_t *distance)
+{
+  measure_distance (channel[0].data, channel[1].data, channel[2].data, tone, n, distance);
 }
 
 void

@@ -142,6 +142,48 @@ lines_have_any_colour (void)
   CHECK (luma_of[100 * SIDE + 50] > 0.95f && luma_of[100 * SIDE + 150] > 0.95f);
 }
 
+/* Bright lines over strong fills: each is darker than some of these and lighter than others. */
+static void
+lines_may_be_bright (void)
+{
+  const Tone line[] = { { 0, 0, 0.8f }, { 0.8f, 0, 0 }, { 0.8f, 0.4f, 0 } }, page = { 0.93f, 0.96f, 1 };
+  const Tone green = { 0.29f, 0.58f, 0.13f }, navy = { 0.19f, 0.14f, 0.65f }, crimson = { 0.56f, 0.12f, 0.39f };
+
+  for (int i = 0; i < 3; i++)
+    {
+      int wrong = 0;
+
+      draw (page, green, crimson, line[i]);
+      for (int y = 0; y < SIDE; y++)
+        for (int x = 0; x < SIDE; x++)
+          {
+            int stripe = y - 4 - x / 25;
+
+            if (stripe >= 0 && stripe < 35)
+              put (x, y, stripe % 15 < 5 ? line[i] : stripe / 15 ? green : navy);
+          }
+      CHECK (find (CELD_INK_AUTO, NULL) == CELD_OK);
+      for (int y = 4; y < 39; y++)
+        for (int x = 0; x < SIDE; x++)
+          {
+            int from_line = (y - 4) % 15; /* two pixels of a fill may be taken for the edge of a line */
+
+            if (from_line < 5 || (from_line >= 7 && from_line < 13))
+              wrong += (luma_of[(y + x / 25) * SIDE + x] < 0.5f) != (from_line < 5);
+          }
+      for (int y = 70; y < 130; y++)
+        for (int x = 0; x < SIDE; x++)
+          {
+            float left = fabsf (hypotf ((float) x - 75, (float) y - 100) - 45);
+            float right = fabsf (hypotf ((float) x - 125, (float) y - 100) - 45);
+
+            if (right < 1 || (x < 75 && left < 1) || (left > 6 && right > 6))
+              wrong += (luma_of[y * SIDE + x] < 0.5f) != (fminf (left, right) < 1);
+          }
+      CHECK (wrong == 0);
+    }
+}
+
 static void
 lines_may_be_lighter (void)
 {
@@ -423,6 +465,7 @@ main (void)
 {
   RUN (fills_are_paper);
   RUN (lines_have_any_colour);
+  RUN (lines_may_be_bright);
   RUN (lines_may_be_lighter);
   RUN (thick_strokes_are_lines_and_areas_are_not);
   RUN (narrow_fills_are_no_lines);
