@@ -11,8 +11,8 @@
  * 5. Where lines meet, and where strokes are thicker than most, they are wider than the window.  There, what has the
  *    colour of lines (line-tones.c) and fits into the widest window is a line as well (thick-lines.c).
  * 6. Where two fills meet without a line, one is drawn (fill-edges.c).
- * Large areas in the colour of lines remain fills: an artist can scribble on them.  Sprites have lines that need no
- * windows (sprite-lines.c).
+ * Large areas in the colour of lines remain fills, with their narrow parts (solid-areas.c): an artist can scribble on
+ * them.  Sprites have lines that need no windows (sprite-lines.c).
  *
  * Cost: O(pixels), whatever the width of lines; 14 bytes a pixel.
  *
@@ -329,19 +329,18 @@ write_strengths (const uint8_t *restrict strength, int n, float *restrict luma)
     luma[x] = 1 - strength[x] / 255.0f;
 }
 
-/* Writes thick strokes that have the tone of lines: n pixels from (x,y) on. */
+/* Writes thick strokes: n pixels from (x,y) on. */
 static void
-write_thick (Lines *l, int x, int y, int n, float *luma)
+write_thick (const Lines *l, int x, int y, int n, float *luma)
 {
-  size_t first = (size_t) y * l->contrast.stride + (size_t) x;
+  const uint8_t *thick = &CELD_AT (&l->contrast, x, y);
 
-  if (celd_any_byte_reaches (l->contrast.data + first, (size_t) n, 1))
+  if (celd_any_byte_reaches (thick, (size_t) n, 1))
     for (int i = 0; i < n; i++)
-      if (l->contrast.data[first + (size_t) i] && celd_is_line_tone (&l->tones, l->channel, first + (size_t) i))
-        luma[i] = 0;
+      luma[i] = thick[i] ? 0 : luma[i];
 }
 
-/* Writes the lines by their strengths, and thick strokes in their tone. */
+/* Writes the lines by their strengths, and thick strokes. */
 static void
 write_lines (Lines *l, CeldDrawing *drawing)
 {
@@ -387,8 +386,9 @@ find_lines (Lines *l, CeldDrawing *drawing)
                              &l->closed, &l->contrast);
   if (status == CELD_OK)
     {
+      celd_leave_solid_areas (l->channel, &l->tones, &l->level, &l->contrast);
       write_lines (l, drawing);
-      celd_draw_fill_edges (l->channel, &l->level, &l->contrast, faintest, &l->closed, &drawing->luma);
+      celd_draw_fill_edges (l->channel, &l->level, faintest, &l->closed, &drawing->luma);
     }
   return status;
 }

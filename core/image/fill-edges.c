@@ -3,8 +3,9 @@
  *
  * There some channel changes by several times the least contrast of a line from one pixel to the second next one.
  * Gradients and soft texture change less.  Of the pixels side by side that do, those with most of the change are the
- * edge.  Lines have such steps on both sides: what is next to one does not count.  Nor do the edges of shadows and
- * highlights, which are parts of a fill: there all channels change in proportion, seen from black or from white.
+ * edge.  Lines have such steps on both sides: one with a line beside it, in its own direction, does not count, so edges
+ * go on up to the ends of lines.  Nor do the edges of shadows and highlights, which are parts of a fill: there all
+ * channels change in proportion, seen from black or from white.
  *
  * Cost: O(pixels).
  *
@@ -16,6 +17,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#define LINE_EDGE      3     /* pixels from the ink of a line to where its edge ends; chosen */
 #define CLEAR_STEP     3     /* times the least contrast of a line; chosen */
 #define DARKEST_SHADOW 0.35f /* light in a shadow as a share of that beside it, at least; chosen */
 #define HUE_CHANGE     24    /* of 255: how far a channel in a shadow may be from proportion; chosen */
@@ -32,14 +34,19 @@ raise_steps (const uint8_t *restrict before, const uint8_t *restrict after, size
     }
 }
 
-/* Whether a pixel that is not outermost, or one next to it, is of a line. */
+/* Whether a line is on one side of a pixel, dx,dy from one to the next: its ink, and up to there its paler edge. */
 static bool
-is_at_line (const CeldMask *strength, const CeldMask *thick, int x, int y)
+is_line_beside (const CeldMask *strength, const CeldPlane *luma, int x, int y, int dx, int dy)
 {
-  for (int v = y - 1; v <= y + 1; v++)
-    for (int u = x - 1; u <= x + 1; u++)
-      if (CELD_AT (strength, u, v) || CELD_AT (thick, u, v))
+  for (int i = 0; i <= LINE_EDGE; i++, x += dx, y += dy)
+    {
+      if (x < 0 || y < 0 || x >= luma->width || y >= luma->height)
+        return false;
+      if (!celd_is_paper (CELD_AT (luma, x, y)))
         return true;
+      if (i > 1 && !CELD_AT (strength, x, y))
+        return false;
+    }
   return false;
 }
 
@@ -64,7 +71,8 @@ is_shadow (const uint8_t dark[3], const uint8_t light[3], uint8_t invert)
 
 /* Whether there is an edge between fills across pixel (x,y), from dx,dy before to dx,dy after it. */
 static bool
-is_edge (const CeldMask channel[3], int x, int y, int dx, int dy, int least)
+is_edge (const CeldMask channel[3], const CeldMask *strength, const CeldPlane *luma, int x, int y, int dx, int dy,
+         int least)
 {
   uint8_t a[3], b[3];
   int     most = 0;
@@ -75,14 +83,15 @@ is_edge (const CeldMask channel[3], int x, int y, int dx, int dy, int least)
       b[c] = CELD_AT (&channel[c], x + dx, y + dy);
       most = abs (a[c] - b[c]) > most ? abs (a[c] - b[c]) : most;
     }
-  return most >= least && !is_shadow (a, b, 0) && !is_shadow (b, a, 0) && !is_shadow (a, b, 255) &&
-         !is_shadow (b, a, 255);
+  return most >= least && !is_line_beside (strength, luma, x, y, dx, dy) &&
+         !is_line_beside (strength, luma, x, y, -dx, -dy) && !is_shadow (a, b, 0) && !is_shadow (b, a, 0) &&
+         !is_shadow (a, b, 255) && !is_shadow (b, a, 255);
 }
 
 /* Sets `step` to the largest change of a channel across each pixel; to 0 at the frame, at lines, and where there is no
  * edge between fills. */
 static void
-measure_steps (const CeldMask channel[3], const CeldMask *strength, const CeldMask *thick, int least, CeldMask *step)
+measure_steps (const CeldMask channel[3], const CeldMask *strength, const CeldPlane *luma, int least, CeldMask *step)
 {
   int width = step->width, height = step->height;
 
@@ -103,8 +112,8 @@ measure_steps (const CeldMask channel[3], const CeldMask *strength, const CeldMa
             memset (&CELD_AT (step, left, y), 0, (size_t) n);
           else
             for (int x = left; x < left + n; x++)
-              if (CELD_AT (step, x, y) < least || is_at_line (strength, thick, x, y) ||
-                  !(is_edge (channel, x, y, 1, 0, least) || is_edge (channel, x, y, 0, 1, least)))
+              if (CELD_AT (step, x, y) < least || !(is_edge (channel, strength, luma, x, y, 1, 0, least) ||
+                                                    is_edge (channel, strength, luma, x, y, 0, 1, least)))
                 CELD_AT (step, x, y) = 0;
         }
     }
@@ -123,12 +132,12 @@ is_largest (const CeldMask *step, int x, int y)
 }
 
 void
-celd_draw_fill_edges (const CeldMask channel[3], const CeldMask *strength, const CeldMask *thick, int faintest,
-                      CeldMask *step, CeldPlane *luma)
+celd_draw_fill_edges (const CeldMask channel[3], const CeldMask *strength, int faintest, CeldMask *step,
+                      CeldPlane *luma)
 {
   int least = CLEAR_STEP * faintest < 255 ? CLEAR_STEP * faintest : 255;
 
-  measure_steps (channel, strength, thick, least, step);
+  measure_steps (channel, strength, luma, least, step);
   for (int y = 0; y < luma->height; y++)
     for (int left = 0, n; left < luma->width; left += n)
       {

@@ -227,10 +227,15 @@ void celd_tone_distance (const CeldMask channel[3], const uint8_t tone[3], size_
 CeldStatus celd_thick_lines (const CeldMask channel[3], int radius, int faintest, const CeldHost *host, void *work,
                              CeldMask *spare, CeldMask *thick);
 
-/* fill-edges.c: sets `luma` to 0 along edges between fills that meet without a line.  `strength` and `thick` are 0
- * where there is no line, `faintest` is the least contrast of one; `step` is overwritten; all have one size. */
-void celd_draw_fill_edges (const CeldMask channel[3], const CeldMask *strength, const CeldMask *thick, int faintest,
-                           CeldMask *step, CeldPlane *luma);
+/* solid-areas.c: of `thick`, which is 1 in thick strokes and else 0, sets what has not the tone of lines to 0, and what
+ * hangs on areas in its colour that are no lines.  `strength` is that of thin lines. */
+void celd_leave_solid_areas (const CeldMask channel[3], const CeldLineTones *tones, const CeldMask *strength,
+                             CeldMask *thick);
+
+/* fill-edges.c: sets `luma`, which has the lines, to 0 along edges between fills that meet without a line.  `strength`
+ * is 0 where there is no line, `faintest` is the least contrast of one; `step` is overwritten; all have one size. */
+void celd_draw_fill_edges (const CeldMask channel[3], const CeldMask *strength, int faintest, CeldMask *step,
+                           CeldPlane *luma);
 
 /* ------------------------------------------------------------------ borders between pixels */
 

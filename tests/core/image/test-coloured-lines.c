@@ -206,6 +206,50 @@ thick_strokes_are_lines_and_areas_are_not (void)
   CHECK (luma_of[12 * SIDE + 100] < 0.05f && luma_of[175 * SIDE + 100] > 0.95f);
 }
 
+/* The page's label, 1, spreads over what is lighter than ink from its corner on. */
+static void
+flood_page (uint8_t *label)
+{
+  bool more = true;
+
+  memset (label, 0, SIDE * SIDE);
+  label[0] = 1;
+  while (more)
+    {
+      more = false;
+      for (int turn = 0; turn < 2; turn++)
+        for (int k = 0; k < SIDE * SIDE; k++)
+          {
+            int  i = turn ? SIDE * SIDE - 1 - k : k, x = i % SIDE, y = i / SIDE;
+            bool beside = (x > 0 && label[i - 1]) || (x < SIDE - 1 && label[i + 1]) || (y > 0 && label[i - SIDE]) ||
+                          (y < SIDE - 1 && label[i + SIDE]);
+
+            if (!label[i] && beside && luma_of[i] >= 0.5f)
+              label[i] = more = true;
+          }
+    }
+}
+
+/* A disc in the colour of lines, on which the line of another one ends, and a bar on it that would be a thick stroke. */
+static void
+solid_areas_are_closed_and_whole (void)
+{
+  static uint8_t label[SIDE * SIDE];
+
+  draw (white, yellow, brown, brown);
+  for (int y = 20; y < 90; y++)
+    for (int x = 118; x < 132; x++)
+      put (x, y, brown);
+  for (int y = 160; y < 190; y++)
+    for (int x = 20; x < 60; x++)
+      put (x, y, y >= 163 && y < 187 && x >= 23 && x < 57 ? blue : brown);
+  CHECK (find (CELD_INK_AUTO, NULL) == CELD_OK);
+  flood_page (label);
+  CHECK (label[5 * SIDE + 100] && !label[100 * SIDE + 125] && !label[100 * SIDE + 50] && !label[175 * SIDE + 40]);
+  for (int y = 25; y < 100; y++)
+    CHECK (luma_of[y * SIDE + 125] >= 0.95f && !label[y * SIDE + 125]);
+}
+
 /* The tips of a diamond fit into the window by which lines are found, as there is a wide line too; a bar nearly in the
  * colour of lines fits into that for thick strokes. */
 static void
@@ -468,6 +512,7 @@ main (void)
   RUN (lines_may_be_bright);
   RUN (lines_may_be_lighter);
   RUN (thick_strokes_are_lines_and_areas_are_not);
+  RUN (solid_areas_are_closed_and_whole);
   RUN (narrow_fills_are_no_lines);
   RUN (wedges_have_no_cross_lines);
   RUN (pale_lines_stay_between_dark_ones);
