@@ -6,8 +6,6 @@
 
 #include <math.h>
 
-#define LEAST_HUE 0.02f /* difference of the channels of a pixel that is not grey, of 1; chosen */
-
 /* ------------------------------------------------------------------ reading */
 
 gboolean
@@ -48,16 +46,6 @@ celd_buffer_read_colours (GeglBuffer *buffer, const GeglRectangle *rect, CeldCol
 
 /* ------------------------------------------------------------------ drawings */
 
-/* Whether some of n pixels is not grey. */
-static gboolean
-has_hue (const float *rgba, gsize n)
-{
-  for (gsize i = 0; i < n; i++, rgba += 4)
-    if (fabsf (rgba[0] - rgba[1]) > LEAST_HUE || fabsf (rgba[1] - rgba[2]) > LEAST_HUE)
-      return TRUE;
-  return FALSE;
-}
-
 /* Replaces the drawing by its lines if it is a coloured one. */
 static CeldStatus
 take_coloured_lines (GeglBuffer *buffer, const GeglRectangle *rect, CeldInkMode ink, const CeldHost *host,
@@ -81,7 +69,6 @@ celd_buffer_read_drawing (GeglBuffer *buffer, const GeglRectangle *rect, CeldInk
                           CeldDrawing *drawing)
 {
   GeglRectangle row = { rect->x, rect->y, rect->width, 1 };
-  gboolean      hue = FALSE;
   gsize         start = 0, w = (gsize) row.width;
   float        *rgba = g_try_new (float, 4 * w), *alpha = drawing->alpha.data;
 
@@ -91,10 +78,9 @@ celd_buffer_read_drawing (GeglBuffer *buffer, const GeglRectangle *rect, CeldInk
     {
       get (buffer, &row, "R'G'B'A float", paper (buffer), rgba);
       celd_luma (rgba, w, drawing->luma.data + start, alpha ? alpha + start : NULL);
-      hue = hue || has_hue (rgba, w);
     }
   g_free (rgba);
-  return hue || ink == CELD_INK_LINES ? take_coloured_lines (buffer, rect, ink, host, drawing) : CELD_OK;
+  return take_coloured_lines (buffer, rect, ink, host, drawing);
 }
 
 gboolean

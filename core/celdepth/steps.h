@@ -20,8 +20,8 @@ CELD_API void celd_luma (const float *rgba, size_t n, float *luma, float *alpha)
 
 /* Replaces a coloured drawing by its lines, black on white: what is darker, or lighter, than the fills on both sides of
  * it.  For hosts, before a drawing is used: `art` has the colours of `drawing`, in its size.  With CELD_INK_LINES
- * always, with CELD_INK_AUTO if there are fills in several hues; otherwise, and after a failure, the drawing stays as
- * it is. */
+ * always, with CELD_INK_AUTO if there are fills in several hues or flat greys; otherwise, and after a failure, the
+ * drawing stays as it is. */
 CELD_API CeldStatus celd_coloured_lines (const CeldPaint *art, CeldInkMode mode, const CeldHost *host,
                                          CeldDrawing *drawing);
 

@@ -420,7 +420,7 @@ celd_coloured_lines (const CeldPaint *art, CeldInkMode mode, const CeldHost *hos
           if (status == CELD_OK)
             write_lines (l, drawing);
         }
-      else if (mode == CELD_INK_LINES || celd_is_coloured (l->channel))
+      else if (mode == CELD_INK_LINES || celd_is_coloured (l->channel) || celd_has_grey_fills (l->channel))
         status = find_lines (l, drawing);
     }
   end_work (l);

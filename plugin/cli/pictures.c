@@ -143,7 +143,7 @@ cli_read_drawing (CeldIoFile *file, size_t part, const char *path, const CliOpti
       celd_luma (row, (size_t) width, drawing->luma.data + start, alpha ? drawing->alpha.data + start : NULL);
     }
   good = good && (mode != CELD_INK_AUTO || options->settings.flats || cli_check_drawing (path, drawing, options->quiet));
-  if (good && (colours.channels > 2 || mode == CELD_INK_LINES))
+  if (good)
     good = take_coloured_lines (&colours, mode, drawing);
   g_free (row);
   colours_clear (&colours);

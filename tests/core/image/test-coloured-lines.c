@@ -473,6 +473,32 @@ line_art_stays (void)
   CHECK (find (CELD_INK_AUTO, NULL) == CELD_OK && unchanged ());
 }
 
+/* Flat greys are fills; uneven light and grain are none. */
+static void
+grey_fills_are_paper (void)
+{
+  const Tone black = { 0.05f, 0.05f, 0.05f }, light = { 0.8f, 0.8f, 0.8f }, dark = { 0.55f, 0.55f, 0.55f };
+  uint32_t   state = 1;
+
+  draw (white, light, dark, black);
+  CHECK (find (CELD_INK_AUTO, NULL) == CELD_OK && worst () < 0.35f);
+  draw (dark, white, light, black);
+  CHECK (find (CELD_INK_AUTO, NULL) == CELD_OK && worst () < 0.35f);
+  for (int turn = 0; turn < 2; turn++)
+    {
+      for (int y = 0; y < SIDE; y++)
+        for (int x = 0; x < SIDE; x++)
+          {
+            float shade = turn ? 1 - 0.4f * (float) x / SIDE : inside (x, y, 100, 100, 80) ? 0.7f : 1;
+
+            state = state * 1664525u + 1013904223u;
+            shade -= turn ? 0 : 0.05f * (float) (state >> 16) / 65536;
+            put (x, y, mixed (black, (Tone) { shade, shade, shade }, 1 - line_at (x, y)));
+          }
+      CHECK (find (CELD_INK_AUTO, NULL) == CELD_OK && unchanged ());
+    }
+}
+
 /* Grey fills are found when the artist asks for it, and nothing is found where there is nothing. */
 static void
 by_request (void)
@@ -522,6 +548,7 @@ main (void)
   RUN (shadows_have_no_lines);
   RUN (transparent_is_white);
   RUN (line_art_stays);
+  RUN (grey_fills_are_paper);
   RUN (by_request);
   RUN (bad_input);
   return DONE;
