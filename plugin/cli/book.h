@@ -40,8 +40,8 @@ struct CliBook
  * with a message. */
 bool  cli_book_sort_words   (CliBook *book, const CliCommand *command, int argc, char **argv, GPtrArray *words);
 void  cli_book_add_result   (CliBook *book, const char *option, const char *ending);
-/* Parses the command line as that of a page called PAGE; the exit code.  Leaves in `words` the
- * command and the pages alone. */
+/* Parses the command line as that of a page called PAGE; the exit code.  Leaves the command and the pages at the front
+ * of `words`. */
 int   cli_book_parse        (CliBook *book, const CliCommand *command, GPtrArray *words);
 /* The file of a result of the page of this name; free with g_free. */
 char *cli_book_result_path  (const CliBook *book, const char *page, const CliResult *result);

@@ -92,8 +92,8 @@ typedef struct
   int       (*run) (const CliOptions *options);
 } CliCommand;
 
-/* CLI_DONE, or another exit code after a message; with options->help there is nothing to do.  The caller clears
- * `options` in either case. */
+/* CLI_DONE, or another exit code after a message; with options->help there is nothing to do.  NULL stands behind the
+ * words, as behind those of main; they are moved.  The caller clears `options` in either case. */
 int  cli_options_parse (const CliCommand *command, int argc, char **argv, CliOptions *options);
 void cli_options_clear (CliOptions *options);
 

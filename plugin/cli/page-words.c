@@ -127,7 +127,8 @@ cli_book_parse (CliBook *book, const CliCommand *command, GPtrArray *words)
   cli_book_name_results (book, "PAGE", named); /* as --help calls it, for messages */
   for (guint i = 0; i < named->len; i++)
     g_ptr_array_insert (words, 1, named->pdata[i]);
-  code = cli_options_parse (command, (int) words->len, (char **) words->pdata, &book->options);
+  g_ptr_array_add (words, NULL); /* as behind the words of main */
+  code = cli_options_parse (command, (int) words->len - 1, (char **) words->pdata, &book->options);
   g_ptr_array_free (named, TRUE);
   return code;
 }
