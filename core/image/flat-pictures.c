@@ -40,14 +40,9 @@ count_changes (const CeldPlane *levels, float largest)
 static float
 range_of (const CeldPlane *plane)
 {
-  float least = INFINITY, most = -INFINITY;
+  float least, most;
 
-  for (int y = 0; y < plane->height; y++)
-    for (int x = 0; x < plane->width; x++)
-      {
-        least = fminf (least, CELD_AT (plane, x, y));
-        most  = fmaxf (most, CELD_AT (plane, x, y));
-      }
+  celd_level_range (plane, &least, &most);
   return most - least;
 }
 

@@ -7,6 +7,8 @@
 
 #include "base/base.h"
 
+#include <math.h>
+
 #define CELD_SPECK 16 /* pixels: smaller regions do not stand on their own (chosen) */
 
 #define CELD_RUN 256 /* pixels of a row that are looked at together; chosen */
@@ -112,6 +114,30 @@ bool celd_paper_near (const CeldPlane *ink, int radius, int *x, int *y);
  * pixels); corners may be listed twice.  `stroke` is the width of the drawing's strokes; 0: it is measured if needed.
  * The caller frees *pixel with celd_free. */
 CeldStatus celd_frame (const CeldPlane *ink, int width, int height, int stroke, size_t **pixel, size_t *n);
+
+/* ------------------------------------------------------------------ levels and depth */
+
+/* The level or depth of a pixel; NaN and infinity read as 0. */
+static inline float
+celd_level_at (const CeldPlane *levels, int x, int y)
+{
+  float level = CELD_AT (levels, x, y);
+
+  return isfinite (level) ? level : 0;
+}
+
+/* The least and largest of these levels. */
+static inline void
+celd_level_range (const CeldPlane *levels, float *least, float *most)
+{
+  *least = *most = celd_level_at (levels, 0, 0);
+  for (int y = 0; y < levels->height; y++)
+    for (int x = 0; x < levels->width; x++)
+      {
+        *least = fminf (*least, celd_level_at (levels, x, y));
+        *most  = fmaxf (*most, celd_level_at (levels, x, y));
+      }
+}
 
 /* ------------------------------------------------------------------ paint.c */
 

@@ -182,28 +182,6 @@ void celd_matcap_at (const CeldLamp *lamp, int x, int y, double tone[3], double 
 
 /* ------------------------------------------------------------------ depth enhancement */
 
-/* The level or depth of a pixel; NaN and infinity read as 0. */
-static inline float
-celd_level_at (const CeldPlane *levels, int x, int y)
-{
-  float level = CELD_AT (levels, x, y);
-
-  return isfinite (level) ? level : 0;
-}
-
-/* The least and largest of these levels. */
-static inline void
-celd_level_range (const CeldPlane *levels, float *least, float *most)
-{
-  *least = *most = celd_level_at (levels, 0, 0);
-  for (int y = 0; y < levels->height; y++)
-    for (int x = 0; x < levels->width; x++)
-      {
-        *least = fminf (*least, celd_level_at (levels, x, y));
-        *most  = fmaxf (*most, celd_level_at (levels, x, y));
-      }
-}
-
 /* Soft shadows of nearer levels on farther ones: change = - the fraction of light that they take, in [-1,0].
  * `deviation` of the blur in pixels, > 0; `change` has the size of `levels`. */
 CeldStatus celd_shadows (const CeldPlane *levels, double deviation, const CeldSettings *settings, const CeldHost *host,

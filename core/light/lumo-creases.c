@@ -206,14 +206,9 @@ cut (CeldLumo *l)
 static float
 slight_difference (const CeldPlane *depth)
 {
-  float least = INFINITY, most = -INFINITY;
+  float least, most;
 
-  for (int y = 0; y < depth->height; y++)
-    for (int x = 0; x < depth->width; x++)
-      {
-        least = fminf (least, CELD_AT (depth, x, y));
-        most  = fmaxf (most, CELD_AT (depth, x, y));
-      }
+  celd_level_range (depth, &least, &most);
   return SLIGHT * (most - least);
 }
 
