@@ -272,12 +272,15 @@ bool cli_check_depth           (const char *path, const CeldPlane *depth);   /* 
 bool cli_check_regions         (const char *path, const CeldLabels *regions, const CeldPalette *palette);
 void cli_warn_if_flat          (const char *path, const CeldPlane *levels);  /* that all levels are the same */
 
-/* ------------------------------------------------------------------ input.c, texts */
+/* ------------------------------------------------------------------ read-file.c */
 
 /* All bytes of a file, with a NUL behind them; NULL with a message.  Free with g_free. */
 char *cli_file_read (const char *path, gsize *length);
 /* Why a file or folder cannot be read, in words of the system. */
 const char *cli_file_problem (const char *path);
+
+/* ------------------------------------------------------------------ text.c, texts that are given */
+
 /* The text of the file, or if `path` is NULL `given`; "" if neither is given, NULL, with a message, if it cannot be
  * read. */
 char *cli_text_or_file (const char *given, const char *path);
@@ -315,7 +318,7 @@ bool cli_report_write (const char *path, const CliReport *report);
 /* Writes the report if --report is given, prints contradictions and problems, and returns the exit code. */
 int  cli_finish (const CliOptions *options, const CliReport *report);
 
-/* ------------------------------------------------------------------ text.c */
+/* ------------------------------------------------------------------ text.c, texts that are written */
 
 /* A relation in the grammar of docs/relations.md, such as "3,4 > #ff0000 @2 !crack", with the names of the drawings
  * that its ends are in (NULL: none); free with g_free. */

@@ -59,31 +59,6 @@ cli_relation_text (const CeldRelation *relation, const char *const *names)
 /* ------------------------------------------------------------------ texts that are given */
 
 char *
-cli_file_read (const char *path, gsize *length)
-{
-  char   *bytes = NULL;
-  GError *error = NULL;
-
-  if (g_file_get_contents (path, &bytes, length, &error))
-    return bytes;
-  cli_say ("Cannot read \"%s\": %s.", path, cli_file_problem (path));
-  g_error_free (error);
-  return NULL;
-}
-
-const char *
-cli_file_problem (const char *path)
-{
-  FILE *file = fopen (path, "rb");
-  char  byte;
-  int   code = file && fread (&byte, 1, 1, file) == 0 && ferror (file) ? errno : file ? EIO : errno;
-
-  if (file)
-    fclose (file);
-  return g_strerror (code);
-}
-
-char *
 cli_text_or_file (const char *given, const char *path)
 {
   char *text;
