@@ -1,4 +1,4 @@
-/* The paint of joined lines that is explained: that of the lines, and of the heads and dots that were found.
+/* The paint of joined lines that is explained: that of the lines, and what other colours hide.
  *
  * Paint that nothing explains may be of another arrow, so that what is beside it is unclear.
  *
@@ -12,13 +12,12 @@
 /* All chosen; lengths are widths of the paint. */
 #define BODY       0.6 /* from the middle of a line to the edge of its paint, ... */
 #define BODY_MORE  1   /* ... and pixels more */
-#define BARB_FROM  0.5 /* from the tip to where a barb begins */
-#define EDGE_MORE  1.5 /* pixels more than the radius of a dot or wide line that belong to it */
+#define EDGE_MORE  1.5 /* pixels more than the radius of a wide line that belong to it */
 #define REST_ALONG 2.5 /* from the middle of a line, where no other paint may be, ... */
 #define MOST_ALONG 1   /* ... but so many square widths */
 
 static void
-explain_hidden (CeldJoinedLines *s)
+explain_hidden (const CeldJoinedLines *s)
 {
   size_t n = (size_t) s->mask.width * (size_t) s->mask.height;
 
@@ -29,14 +28,14 @@ explain_hidden (CeldJoinedLines *s)
 }
 
 static void
-explain_disc (CeldJoinedLines *s, CeldPoint c, double r)
+explain_disc (const CeldJoinedLines *s, CeldPoint c, double r)
 {
   celd_joined_fill_disc (s, c, r, 1, s->explained);
 }
 
 /* Marks the paint of a straight line as explained. */
 static void
-explain (CeldJoinedLines *s, CeldPoint from, CeldPoint to)
+explain (const CeldJoinedLines *s, CeldPoint from, CeldPoint to)
 {
   double r = BODY * s->graph.width + BODY_MORE, length = hypot (to.x - from.x, to.y - from.y);
 
@@ -46,7 +45,7 @@ explain (CeldJoinedLines *s, CeldPoint from, CeldPoint to)
 }
 
 void
-celd_joined_explain_lines (CeldJoinedLines *s)
+celd_joined_explain_lines (const CeldJoinedLines *s)
 {
   explain_hidden (s);
   for (size_t k = 0; k < s->graph.n_lines; k++)
@@ -56,13 +55,11 @@ celd_joined_explain_lines (CeldJoinedLines *s)
 
       for (size_t i = skip; i + skip + 1 < line->n; i++)
         explain (s, line->at[i], line->at[i + 1]);
-      for (size_t end = 2 * k; end < 2 * k + 2; end++)
-        explain (s, celd_joined_led_from (s, end), s->end[end].tip);
     }
 }
 
 void
-celd_joined_explain_wide_lines (CeldJoinedLines *s)
+celd_joined_explain_wide_lines (const CeldJoinedLines *s)
 {
   explain_hidden (s);
   for (size_t k = 0; k < s->graph.n_lines; k++)
@@ -74,33 +71,6 @@ celd_joined_explain_wide_lines (CeldJoinedLines *s)
       }
 }
 
-void
-celd_joined_explain_head (CeldJoinedLines *s, const CeldJoinedEnd *e)
-{
-  for (int side = 0; side < 2; side++)
-    if (e->barb_score[side] >= 0)
-      {
-        double r = BARB_FROM * s->graph.width;
-
-        while (r < CELD_HEAD_REACH * s->graph.width && celd_joined_painted (s, celd_moved (e->tip, e->barb[side], r)))
-          r += 0.5;
-        for (double t = 0; t <= 1; t += 0.1) /* up to the line: the head may be filled */
-          {
-            CeldPoint d = { e->barb[side].x + t * (e->way.x - e->barb[side].x),
-                            e->barb[side].y + t * (e->way.y - e->barb[side].y) };
-
-            explain (s, e->tip, celd_moved (e->tip, d, r));
-          }
-      }
-}
-
-void
-celd_joined_explain_dot (CeldJoinedLines *s, const CeldJoinedEnd *e)
-{
-  if (celd_joined_inside (s, e->tip))
-    explain_disc (s, e->tip, sqrt (s->mask.squared[celd_joined_pixel (s, e->tip)]) + EDGE_MORE);
-}
-
 int
 celd_joined_paint_at (const CeldJoinedLines *s, CeldPoint p)
 {
@@ -110,7 +80,27 @@ celd_joined_paint_at (const CeldJoinedLines *s, CeldPoint p)
 }
 
 double
-celd_joined_rest (const CeldJoinedLines *s, CeldPoint place, double reach)
+celd_joined_hidden_share (const CeldJoinedLines *s, CeldPoint c, double r)
+{
+  double hidden = 0, n = 0;
+
+  if (!s->hidden)
+    return 0;
+  for (double y = c.y - r; y <= c.y + r; y++)
+    for (double x = c.x - r; x <= c.x + r; x++)
+      if (hypot (x - c.x, y - c.y) <= r)
+        {
+          CeldPoint p = { x, y };
+
+          hidden += celd_joined_inside (s, p) && s->hidden[celd_joined_pixel (s, p)];
+          n++;
+        }
+  return hidden / n;
+}
+
+/* The paint that is not explained within `reach` widths of a place, in square widths. */
+static double
+rest_near (const CeldJoinedLines *s, CeldPoint place, double reach)
 {
   double r = reach * s->graph.width, rest = 0;
 
@@ -126,7 +116,7 @@ celd_joined_is_alone (const CeldJoinedLines *s, size_t k, size_t margin)
   const CeldStrokeLine *line = &s->graph.line[k];
 
   for (size_t i = margin; i + margin < line->n; i += 1 + (size_t) s->graph.width)
-    if (celd_joined_rest (s, line->at[i], REST_ALONG) > MOST_ALONG)
+    if (rest_near (s, line->at[i], REST_ALONG) > MOST_ALONG)
       return false;
   return true;
 }

@@ -28,17 +28,6 @@ go_straight_on (const CeldJoinedLines *s, size_t a, size_t b)
   return celd_joined_node (s, a) == celd_joined_node (s, b) && u.x * v.x + u.y * v.y < -cos (STRAIGHT);
 }
 
-/* Is it beyond doubt that an arrow ends between two lines that meet?  A dot may be of another line that ends there. */
-static bool
-ends_between (const CeldJoinedLines *s, const CeldLineArrows *arrows, size_t a, size_t b)
-{
-  int n = 0;
-
-  for (size_t c = 0; c < 2 * s->graph.n_lines; c++)
-    n += celd_joined_node (s, c) == celd_joined_node (s, a);
-  return (arrows[a / 2].seen[a % 2] || arrows[b / 2].seen[b % 2]) && (s->style != CELD_ARROW_DOT || n == 2);
-}
-
 /* May a line be part of an arrow that passes at one of its ends? */
 static bool
 may_pass (const CeldJoinedLines *s, const CeldLineArrows *arrows, size_t k)
@@ -49,7 +38,7 @@ may_pass (const CeldJoinedLines *s, const CeldLineArrows *arrows, size_t k)
         {
           int here = arrows[k].role[a % 2], there = arrows[b / 2].role[b % 2];
 
-          if (!there || (here != there && !ends_between (s, arrows, a, b)))
+          if (!there || here != there)
             return true;
         }
   return false;
@@ -142,7 +131,7 @@ read_lines (CeldJoinedLines *s, const CeldArrowLayer *layer, CeldRelations *rela
   CeldStatus      status = !arrows ? CELD_NO_MEMORY : profiles ? celd_joined_profiles_read (s, layer, arrows)
                                                                : celd_joined_heads_read (s, arrows);
 
-  if (status == CELD_OK)
+  if (status == CELD_OK && profiles)
     remove_passing (s, arrows);
   for (size_t k = 0; k < s->graph.n_lines && status == CELD_OK && s->hidden; k++)
     if (is_as_short_as_head (s, &arrows[k]))
@@ -152,7 +141,7 @@ read_lines (CeldJoinedLines *s, const CeldArrowLayer *layer, CeldRelations *rela
   if (*n == 1 && !s->hidden)
     *n = 0;
   for (size_t k = 0; k < s->graph.n_lines && status == CELD_OK && *n; k++)
-    if (is_long (s, k))
+    if (is_long (s, k) && !arrows[k].part)
       status = add_line (s, k, &arrows[k], crack, relations, problems);
   celd_free (arrows);
   return status;
@@ -204,7 +193,6 @@ celd_joined_arrows_read (CeldArrowStroke *stroke, const CeldStrokeCover *cover, 
   if (status == CELD_OK && s.graph.n_lines && s.graph.n_lines <= MOST_LINES)
     status = read_lines (&s, layer, relations, problems, &n);
   *width = n ? s.graph.width : 0;
-  celd_free (s.end);
   celd_free (s.hidden);
   celd_free (s.explained);
   celd_stroke_graph_clear (&s.graph);

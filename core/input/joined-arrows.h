@@ -1,4 +1,4 @@
-/* Arrows of one colour that share ends, as lines of a graph: what joined-*.c, explained-paint.c and free-ends.c share.
+/* Arrows of one colour that share ends, as lines of a graph: what joined-*.c, head-*.c and explained-paint.c share.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -13,22 +13,10 @@
 #define CELD_MOST_APART 2.4 /* widths for which lines that meet may lie side by side; chosen: 30 degrees */
 #define CELD_MOST_MOVED 1.8 /* widths from a node to where its lines would meet, at most; chosen */
 #define CELD_HEAD_REACH 5.5 /* widths from the tip to the end of a barb, at most; chosen */
+#define CELD_NODE_REACH 7   /* widths from a node up to which paint belongs to it; chosen */
+#define CELD_MOST_MARKS 7   /* lines that meet at a node, of which more are unclear; chosen */
 
-typedef enum { CELD_END_UNKNOWN, CELD_END_BARE, CELD_END_MARKED, CELD_END_HIDDEN } CeldEndMark;
-
-/* An end of a line.  tip: where it is, or would be; way: from there into the line.  Of a head: the directions of its
- * barbs from the tip, right and left of the line; how well each agrees with the paint, from 0 to 1 or -1 = it cannot be
- * seen; and how well the head does.  mark: is there a head or dot, or would paint of other colours hide it?  covered:
- * there is such paint near a free end, up to which the line is straight. */
-typedef struct
-{
-  CeldPoint   tip, way, barb[2];
-  double      barb_score[2], score;
-  CeldEndMark mark;
-  bool        covered;
-} CeldJoinedEnd;
-
-/* All points are in coordinates of the mask. */
+/* All points are in coordinates of the mask; end i of line k is number 2 k + i. */
 typedef struct
 {
   CeldArrowStyle   style;
@@ -36,15 +24,14 @@ typedef struct
   CeldStrokeMask   mask;
   CeldStrokeGraph  graph;
   uint8_t         *hidden;    /* of each pixel of the mask: has it paint of other colours?  NULL: there are none */
-  uint8_t         *explained; /* the same size: is it hidden, or does it belong to a line, or to a head that was found? */
+  uint8_t         *explained; /* the same size: is it hidden, or does it belong to a line? */
   uint8_t         *may_take;  /* the same size: may a piece have that pixel? */
-  CeldJoinedEnd   *end;       /* two for each line: end i of line k is 2 k + i */
 } CeldJoinedLines;
 
-/* The arrows of a line: none if it is unclear, or one, or two that meet at its corner.  role: of each end, 1 = an arrow
- * ends there, -1 = one begins there, 0 = not known; seen: a head there is beyond doubt.  A dot always is, if the line
- * has one at either end. */
-typedef struct { CeldPoint nearer[2], farther[2]; int n, role[2]; bool seen[2]; } CeldLineArrows;
+/* The arrows of a line: none if it is unclear, or one, or two that meet at its corner.  part: the line belongs to the
+ * arrow of another one.  role: of each end of a line that fades or tapers, 1 = an arrow ends there, -1 = one begins
+ * there, 0 = not known. */
+typedef struct { CeldPoint nearer[2], farther[2]; int n, role[2]; bool part; } CeldLineArrows;
 
 /* ------------------------------------------------------------------ joined-lines.c */
 
@@ -124,46 +111,57 @@ void celd_joined_fill_disc (const CeldJoinedLines *lines, CeldPoint centre, doub
 
 /* ------------------------------------------------------------------ explained-paint.c */
 
-/* Marks as explained the paint of all lines, with their ends led to the tips, and what is hidden; nothing else is. */
-void celd_joined_explain_lines (CeldJoinedLines *lines);
+/* Marks as explained the paint of all lines but for that near nodes, and what is hidden; nothing else is. */
+void celd_joined_explain_lines (const CeldJoinedLines *lines);
 
 /* Marks as explained the paint of all lines, as wide as they are everywhere, and what is hidden; nothing else is. */
-void celd_joined_explain_wide_lines (CeldJoinedLines *lines);
-
-/* Marks the paint of the head or dot at an end as explained. */
-void celd_joined_explain_head (CeldJoinedLines *lines, const CeldJoinedEnd *end);
-void celd_joined_explain_dot (CeldJoinedLines *lines, const CeldJoinedEnd *end);
+void celd_joined_explain_wide_lines (const CeldJoinedLines *lines);
 
 /* What is at a point: paint (1) or none (0); -1 = it is explained. */
 int celd_joined_paint_at (const CeldJoinedLines *lines, CeldPoint p);
 
-/* The paint that is not explained within `reach` widths of a place, in square widths. */
-double celd_joined_rest (const CeldJoinedLines *lines, CeldPoint place, double reach);
-
 /* Is all paint beside a line explained, but for `margin` points at its ends? */
 bool celd_joined_is_alone (const CeldJoinedLines *lines, size_t line, size_t margin);
-
-/* ------------------------------------------------------------------ joined-marks.c */
-
-/* The barbs and the score of a head at an end whose tip is given. */
-void celd_joined_find_barbs (const CeldJoinedLines *lines, CeldJoinedEnd *end);
 
 /* The part of a disc, from 0 to 1, in which other colours hide what is there. */
 double celd_joined_hidden_share (const CeldJoinedLines *lines, CeldPoint centre, double radius);
 
-/* Looks for a head or dot near the tip of an end, which moves there if one is found. */
-void celd_joined_find_mark (const CeldJoinedLines *lines, CeldJoinedEnd *end, bool is_free);
+/* ------------------------------------------------------------------ head-fits.c */
 
-/* The place near `start` where the heads of n ends agree best with the paint if all have their tips there. */
-CeldPoint celd_joined_common_tip (const CeldJoinedLines *lines, const size_t *head, size_t n, CeldPoint start);
+/* The n ends at a node, and of each set of them (bit i: end i has a head or dot there) what that costs, in square widths
+ * of paint, and where the node is then.  cost is NULL if nothing is known. */
+typedef struct { size_t end[CELD_MOST_MARKS]; int n; double *cost; CeldPoint *tip; } CeldNodeMarks;
 
-/* ------------------------------------------------------------------ free-ends.c */
+/* Finds costs and places, for which there is room, of the ends that are given.  The paint of all lines is explained
+ * (celd_joined_explain_lines).  meeting: where the lines of each node meet, NAN = it has none. */
+CeldStatus celd_node_marks_find (const CeldJoinedLines *lines, size_t node, const CeldPoint *meeting,
+                                 CeldNodeMarks *marks);
 
-/* Where the paint of a line ends at its free end. */
-CeldStatus celd_joined_free_tip (const CeldJoinedLines *lines, size_t end, CeldPoint *tip);
+/* ------------------------------------------------------------------ head-choice.c */
 
-/* Looks for a head or dot at a free end. */
-CeldStatus celd_joined_read_free_end (CeldJoinedLines *lines, size_t end);
+/* Two ends at a node whose lines may be one arrow that passes there, what that costs, and whether it does. */
+typedef struct { size_t end[2]; double cost; bool on; } CeldArrowPass;
+
+/* Which ends have heads or dots, and where arrows pass.  Found are, of each line: the first line of its arrow; of that
+ * line the heads of the arrow; and what the best other choice for the line costs more. */
+typedef struct
+{
+  const CeldJoinedLines *lines;
+  CeldNodeMarks         *node;
+  CeldArrowPass         *pass;
+  size_t                 n_passes, pass_capacity;
+  bool                  *marked;     /* of each end */
+  bool                  *short_line; /* of each line: may it be the barb of a head? */
+  size_t                *chain;
+  int                   *heads;
+  double                *margin;
+} CeldHeadChoice;
+
+/* Finds the choice that costs least, from one without heads and passes. */
+CeldStatus celd_head_choice_find (CeldHeadChoice *choice);
+
+/* The set of ends of a node that have heads. */
+unsigned celd_head_choice_at (const CeldHeadChoice *choice, int node);
 
 /* ------------------------------------------------------------------ joined-heads.c, joined-profiles.c */
 

@@ -1,308 +1,290 @@
-/* Which end of each of several lines that meet has its head or dot.
+/* The arrows of lines that meet, by their heads or dots.
  *
- * An arrow has one head, so that a free end decides about the other one, too.  The heads that are decided explain some
- * of the paint where lines meet, and what remains decides about lines without a free end.  Two arrows that begin at one
- * point, and nothing else there, are one line with a corner and a head at both ends.
+ * An arrow has one head.  What each choice of heads costs at a node (head-fits.c), and where arrows may pass, gives the
+ * choice for all lines that costs least (head-choice.c).  An arrow is read if every other choice for its lines, and for
+ * those that they meet, costs clearly more, and if that choice explains the paint at both ends.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
+#include "base/base.h"
 #include "input/joined-arrows.h"
 
 #include <math.h>
 
-/* All chosen; lengths are widths of the paint. */
-#define CLEAR_SIDE  0.8  /* score of each barb of a head that is beyond doubt */
-#define MOST_REST   4.5  /* square widths of paint at a node that are not explained, ... */
-#define DOT_REACH   9    /* ... in this distance, if there is a dot: a short branch may lead to another one */
-#define MOST_MARGIN 0.33 /* part of a line at each of its ends where other paint may be beside it */
+/* All chosen; costs are square widths of paint. */
+#define PASS_TURN      0.6  /* radians by which an arrow may turn where it passes others, ... */
+#define FREE_TURN      0.35 /* ... and by which it may turn for a cost of 1; ... */
+#define MOST_BEND      1.3  /* ... the same at the corner of a line */
+#define FREE_BEND      0.7
+#define CLEAR_MARGIN   1    /* cost by which an arrow must be better than others in its place */
+#define MOST_REST      1.5  /* cost of a node where all is clear */
+#define BARE_MARGIN    0.75 /* cost by which a free end must be better without a head */
+#define SHORTEST_ARROW 6    /* widths that the line of an arrow is long */
+#define OTHERS         1.5  /* widths from a free end to paint of other colours that may hide a head */
 
-#define UNCLEAR -1 /* none of them, or it is not known which */
-#define BOTH    2  /* two arrows, which meet at a corner of the line */
+#define NO_END SIZE_MAX
 
-typedef struct
-{
-  CeldJoinedLines *lines;
-  int             *marked; /* of each line: which end has the head or dot; also UNCLEAR or BOTH */
-  size_t          *heads;  /* room for all ends of a node */
-} Heads;
+/* ------------------------------------------------------------------ nodes and passes */
 
-static bool
-is_marked (const Heads *s, size_t end)
-{
-  return s->marked[end / 2] == (int) (end % 2) || s->marked[end / 2] == BOTH;
-}
-
-/* ------------------------------------------------------------------ marks at all ends */
-
-/* Is an end apart from the others of its node?  Else all lines there are unclear, and need not be looked at. */
-static bool
-may_be_marked (const CeldJoinedLines *s, size_t end)
-{
-  return celd_joined_widths_apart (s, end) <= CELD_MOST_APART;
-}
-
-static CeldStatus
-find_marks (CeldJoinedLines *s)
-{
-  CeldStatus status = CELD_OK;
-
-  celd_free (s->end);
-  s->end = celd_alloc0 (2 * s->graph.n_lines, sizeof *s->end);
-  if (!s->end)
-    return CELD_NO_MEMORY;
-  for (size_t i = 0; i < 2 * s->graph.n_lines && status == CELD_OK; i++)
-    {
-      s->end[i].way = celd_joined_way (s, i);
-      if (celd_joined_is_free (s, i))
-        status = celd_joined_free_tip (s, i, &s->end[i].tip);
-      else
-        s->end[i].tip = celd_joined_meeting_point (s, celd_joined_node (s, i));
-    }
-  celd_joined_explain_lines (s);
-  for (size_t i = 0; i < 2 * s->graph.n_lines && status == CELD_OK; i++)
-    if (celd_joined_is_free (s, i))
-      status = celd_joined_read_free_end (s, i);
-    else if (may_be_marked (s, i))
-      celd_joined_find_mark (s, &s->end[i], false);
-  return status;
-}
-
-/* Joins the two lines of each node that has no more, and no mark: something else was there.  *joined: whether there
- * were such nodes. */
-static CeldStatus
-join_through (CeldJoinedLines *s, bool *joined)
-{
-  CeldStrokeGraph *g = &s->graph;
-  size_t           before = g->n_lines;
-  bool            *marked = celd_alloc0 (g->n_nodes, sizeof *marked);
-  CeldStatus       status = marked ? CELD_OK : CELD_NO_MEMORY;
-
-  for (size_t i = 0; marked && i < 2 * g->n_lines; i++)
-    marked[celd_joined_node (s, i)] |= s->end[i].mark != CELD_END_BARE;
-  for (size_t node = 0; node < g->n_nodes && status == CELD_OK; node++)
-    if (!marked[node])
-      status = celd_stroke_graph_join (g, (int) node);
-  *joined = g->n_lines < before;
-  celd_free (marked);
-  return status;
-}
-
-/* ------------------------------------------------------------------ the marked end of each line */
-
-/* The marked end of a line, as far as it is clear; BOTH only with `corners`. */
-static int
-marked_end (const CeldJoinedLines *s, size_t k, bool corners)
-{
-  const CeldJoinedEnd *e = &s->end[2 * k];
-  bool               free_end[2] = { celd_joined_is_free (s, 2 * k), celd_joined_is_free (s, 2 * k + 1) };
-  CeldPoint          corner;
-
-  if (free_end[0] == free_end[1] && e[0].mark == CELD_END_MARKED && e[1].mark == CELD_END_MARKED)
-    return corners && (free_end[0] || s->style != CELD_ARROW_DOT) &&
-           celd_stroke_line_corner (&s->graph, k, &corner) ? BOTH : UNCLEAR;
-  for (int i = 0; i < 2; i++)
-    if (free_end[0] && free_end[1] && e[i].mark == CELD_END_BARE && !e[i].covered && e[!i].covered)
-      return !i; /* the head is there, seen or not */
-  for (int i = 0; i < 2; i++)
-    if (free_end[i] && e[i].mark == CELD_END_MARKED)
-      return !free_end[!i] || e[!i].mark == CELD_END_BARE || e[!i].mark == CELD_END_HIDDEN ? i : UNCLEAR;
-    else if (free_end[i] && e[i].mark == CELD_END_BARE)
-      return e[!i].mark == CELD_END_MARKED || (e[!i].mark == CELD_END_HIDDEN && !e[i].covered) ? !i : UNCLEAR;
-  for (int i = 0; i < 2; i++)
-    if (e[i].mark == CELD_END_MARKED && e[!i].mark == CELD_END_BARE)
-      return i;
-  return UNCLEAR;
-}
-
-/* Decides about lines, and explains the paint of their heads; false if there was nothing new. */
-static bool
-decide (Heads *s, bool corners)
-{
-  CeldJoinedLines *lines = s->lines;
-  bool             any = false;
-
-  for (size_t k = 0; k < lines->graph.n_lines; k++)
-    if (s->marked[k] == UNCLEAR && (s->marked[k] = marked_end (lines, k, corners)) != UNCLEAR)
-      {
-        any = true;
-        for (size_t i = 2 * k; i < 2 * k + 2 && lines->style != CELD_ARROW_DOT; i++)
-          if (is_marked (s, i) && !celd_joined_is_free (lines, i))
-            celd_joined_explain_head (lines, &lines->end[i]);
-      }
-  return any;
-}
-
-/* Decides, and looks again at the ends of the other lines, until there is nothing new. */
-static void
-decide_all (Heads *s)
-{
-  CeldJoinedLines *lines = s->lines;
-
-  while (decide (s, false) || decide (s, true))
-    for (size_t i = 0; i < 2 * lines->graph.n_lines; i++)
-      if (lines->style != CELD_ARROW_DOT && s->marked[i / 2] == UNCLEAR && !celd_joined_is_free (lines, i) &&
-          may_be_marked (lines, i))
-        {
-          lines->end[i].tip = celd_joined_meeting_point (lines, celd_joined_node (lines, i));
-          celd_joined_find_mark (lines, &lines->end[i], false);
-        }
-}
-
-/* ------------------------------------------------------------------ places of nodes */
-
-/* The place of a node: where the heads that end there agree best with the paint, or its dot is, else where its lines
- * meet. */
+/* Where the paint of a line ends beyond a free end, straight on. */
 static CeldPoint
-place_of (const Heads *s, int node)
+last_paint (const CeldJoinedLines *lines, size_t end)
 {
-  const CeldJoinedLines *lines = s->lines;
-  CeldJoinedEnd          dot = { .tip = celd_joined_meeting_point (lines, node) };
-  size_t                 n = 0;
+  CeldPoint way = celd_joined_way (lines, end), p = celd_joined_led_from (lines, end);
+  double    d = 0;
 
-  for (size_t i = 0; i < 2 * lines->graph.n_lines; i++)
-    if (celd_joined_node (lines, i) == node && is_marked (s, i))
-      s->heads[n++] = i;
-  if (lines->style == CELD_ARROW_DOT)
-    celd_joined_find_mark (lines, &dot, false);
-  else if (n)
-    return celd_joined_common_tip (lines, s->heads, n, dot.tip);
-  return dot.tip;
+  while (celd_joined_painted (lines, celd_moved (p, way, -d - 1)))
+    d++;
+  return celd_moved (p, way, 0.5 * lines->graph.width - d);
 }
 
-/* Moves the ends at a node to a place; false if the paint there is not that of its lines and heads. */
-static bool
-place_node (Heads *s, int node)
-{
-  CeldJoinedLines *lines = s->lines;
-  CeldPoint        place = place_of (s, node), met = celd_joined_meeting_point (lines, node);
-
-  for (size_t i = 0; i < 2 * lines->graph.n_lines; i++)
-    if (celd_joined_node (lines, i) == node)
-      {
-        lines->end[i].tip = place;
-        if (celd_joined_widths_apart (lines, i) > CELD_MOST_APART)
-          return false;
-      }
-  if (!celd_joined_is_led_to (lines, node, place) ||
-      hypot (place.x - met.x, place.y - met.y) > CELD_MOST_MOVED * lines->graph.width)
-    return false;
-  if (lines->style == CELD_ARROW_DOT)
-    return celd_joined_rest (lines, place, DOT_REACH) <= MOST_REST;
-  for (size_t i = 0; i < 2 * lines->graph.n_lines; i++)
-    if (celd_joined_node (lines, i) == node && is_marked (s, i))
-      celd_joined_find_barbs (lines, &lines->end[i]);
-  for (size_t i = 0; i < 2 * lines->graph.n_lines; i++)
-    if (celd_joined_node (lines, i) == node && is_marked (s, i))
-      celd_joined_explain_head (lines, &lines->end[i]);
-  return celd_joined_rest (lines, place, CELD_HEAD_REACH) <= MOST_REST;
-}
-
-/* Is a line long enough for what it is said to be, without a corner unless it is two arrows, and is there no other
- * paint along it?  The ends of a line without a free end must be apart. */
-static bool
-is_plausible (const Heads *s, size_t k)
-{
-  const CeldJoinedLines *lines = s->lines;
-  const CeldStrokeLine  *line = &lines->graph.line[k];
-  const CeldJoinedEnd   *e = &lines->end[2 * k];
-  bool                   met = !celd_joined_is_free (lines, 2 * k) && !celd_joined_is_free (lines, 2 * k + 1);
-  CeldPoint              corner;
-
-  if (celd_stroke_line_length (line) < (met ? 2 * CELD_HEAD_REACH : CELD_LEAST_LINE) * lines->graph.width)
-    return false;
-  if (s->marked[k] != UNCLEAR && celd_stroke_line_corner (&lines->graph, k, &corner))
-    for (int i = 0; i < 2; i++)
-      if (s->marked[k] != BOTH ||
-          hypot (e[i].tip.x - corner.x, e[i].tip.y - corner.y) < CELD_LEAST_LINE * lines->graph.width)
-        return false;
-  return celd_joined_is_alone (lines, k, (size_t) fmin (CELD_HEAD_REACH * lines->graph.width,
-                                                        MOST_MARGIN * (double) line->n));
-}
-
-/* Places all nodes.  The lines of those that are unclear, and those that cannot be arrows, are unclear. */
+/* Where the lines of each node meet, or the one that is free there ends; NAN if there are none. */
 static void
-place_nodes (Heads *s)
+find_meeting_points (const CeldJoinedLines *lines, CeldPoint *meeting)
 {
-  CeldJoinedLines *lines = s->lines;
-
-  celd_joined_explain_lines (lines);
-  for (size_t i = 0; i < 2 * lines->graph.n_lines && lines->style == CELD_ARROW_DOT; i++)
-    if (lines->end[i].mark == CELD_END_MARKED)
-      celd_joined_explain_dot (lines, &lines->end[i]);
-  for (size_t node = 0; node < lines->graph.n_nodes; node++)
+  for (size_t k = 0; k < lines->graph.n_nodes; k++)
+    meeting[k] = (CeldPoint) { NAN, NAN };
+  for (size_t i = 0; i < 2 * lines->graph.n_lines; i++)
     {
-      size_t n = 0;
-      bool   clear;
+      int node = celd_joined_node (lines, i);
 
-      for (size_t i = 0; i < 2 * lines->graph.n_lines; i++)
-        n += celd_joined_node (lines, i) == (int) node;
-      clear = n < 2 || place_node (s, (int) node);
-      for (size_t i = 0; i < 2 * lines->graph.n_lines && !clear; i++)
-        if (celd_joined_node (lines, i) == (int) node)
-          s->marked[i / 2] = UNCLEAR;
+      meeting[node] = celd_joined_is_free (lines, i) ? last_paint (lines, i) : celd_joined_meeting_point (lines, node);
     }
-  for (size_t k = 0; k < lines->graph.n_lines; k++)
-    if (!is_plausible (s, k))
-      s->marked[k] = UNCLEAR;
+}
+
+static CeldStatus
+node_marks_new (const CeldJoinedLines *lines, size_t node, const CeldPoint *meeting, CeldNodeMarks *marks)
+{
+  for (size_t i = 0; i < 2 * lines->graph.n_lines; i++)
+    if (celd_joined_node (lines, i) == (int) node && marks->n++ < CELD_MOST_MARKS)
+      marks->end[marks->n - 1] = i;
+  if (!marks->n || marks->n > CELD_MOST_MARKS)
+    {
+      marks->n = 0; /* nothing is known there */
+      return CELD_OK;
+    }
+  marks->cost = celd_alloc ((size_t) 1 << marks->n, sizeof *marks->cost);
+  marks->tip  = celd_alloc ((size_t) 1 << marks->n, sizeof *marks->tip);
+  return marks->cost && marks->tip ? celd_node_marks_find (lines, node, meeting, marks) : CELD_NO_MEMORY;
+}
+
+static CeldStatus
+find_node_marks (CeldHeadChoice *s)
+{
+  size_t     n = s->lines->graph.n_nodes;
+  CeldPoint *meeting = celd_alloc (n, sizeof *meeting);
+  CeldStatus status = meeting ? CELD_OK : CELD_NO_MEMORY;
+
+  if (meeting)
+    find_meeting_points (s->lines, meeting);
+  celd_joined_explain_lines (s->lines);
+  for (size_t k = 0; k < n && status == CELD_OK; k++)
+    status = node_marks_new (s->lines, k, meeting, &s->node[k]);
+  celd_free (meeting);
+  return status;
+}
+
+/* The angle by which an arrow would turn from one end to another one at its node. */
+static double
+turn_between (const CeldJoinedLines *lines, size_t a, size_t b)
+{
+  CeldPoint u = celd_joined_way (lines, a), v = celd_joined_way (lines, b);
+
+  return CELD_PI - acos (fmin (1, fmax (-1, u.x * v.x + u.y * v.y)));
+}
+
+/* Finds the pairs of ends where an arrow may pass; only two lines meet at a corner. */
+static CeldStatus
+find_passes (CeldHeadChoice *s)
+{
+  const CeldJoinedLines *lines = s->lines;
+  CeldStatus             status = CELD_OK;
+
+  for (size_t a = 0; a < 2 * lines->graph.n_lines; a++)
+    for (size_t b = a + 1; b < 2 * lines->graph.n_lines && status == CELD_OK; b++)
+      {
+        double turn = turn_between (lines, a, b);
+        bool   corner = s->node[celd_joined_node (lines, a)].n == 2;
+        double cost = pow (turn / (corner ? FREE_BEND : FREE_TURN), 2);
+
+        if (a / 2 != b / 2 && celd_joined_node (lines, a) == celd_joined_node (lines, b) &&
+            turn <= (corner ? MOST_BEND : PASS_TURN))
+          status = celd_append (s->pass, s->n_passes, s->pass_capacity, ((CeldArrowPass) { { a, b }, cost, false }));
+      }
+  return status;
 }
 
 /* ------------------------------------------------------------------ arrows */
 
-/* The arrows of a line.  A head is the farther end, a dot the nearer one. */
-static CeldLineArrows
-arrows_of (const Heads *s, size_t k)
+/* The least length of a line that is an arrow, in widths: if other colours hide what two heads may be, room for both. */
+static double
+least_length (const CeldJoinedLines *lines, size_t k)
 {
-  const CeldJoinedEnd *e = &s->lines->end[2 * k];
-  CeldLineArrows       a = { .n = s->marked[k] == UNCLEAR ? 0 : s->marked[k] == BOTH ? 2 : 1 };
-  CeldPoint            corner = e[0].tip;
+  return lines->hidden && !celd_joined_is_free (lines, 2 * k) && !celd_joined_is_free (lines, 2 * k + 1)
+           ? 2 * CELD_HEAD_REACH : SHORTEST_ARROW;
+}
 
-  if (a.n == 2)
-    celd_stroke_line_corner (&s->lines->graph, k, &corner);
-  for (int i = 0; i < a.n; i++)
+static bool
+is_long_enough (const CeldJoinedLines *lines, size_t k)
+{
+  return celd_stroke_line_length (&lines->graph.line[k]) >= least_length (lines, k) * lines->graph.width;
+}
+
+/* Are the lines of an arrow, and those that they meet, clearly better than other choices?  A line with two heads, or one that
+ * is too short for its head, is not one arrow, and what is next to it may be part of another. */
+static bool
+is_clear (const CeldHeadChoice *s, size_t chain)
+{
+  size_t n = 2 * s->lines->graph.n_lines;
+
+  for (size_t a = 0; a < n; a++)
     {
-      CeldPoint marked = a.n == 2 ? e[i].tip : e[s->marked[k]].tip, other = a.n == 2 ? corner : e[!s->marked[k]].tip;
-
-      a.nearer[i]  = s->lines->style == CELD_ARROW_DOT ? marked : other;
-      a.farther[i] = s->lines->style == CELD_ARROW_DOT ? other : marked;
+      if (s->chain[a / 2] != chain)
+        continue;
+      if (s->margin[a / 2] < CLEAR_MARGIN)
+        return false;
+      for (size_t b = 0; b < n; b++)
+        if (celd_joined_node (s->lines, a) == celd_joined_node (s->lines, b) &&
+            (s->margin[b / 2] < CLEAR_MARGIN || s->heads[s->chain[b / 2]] > 1 ||
+             (s->heads[s->chain[b / 2]] && !is_long_enough (s->lines, b / 2))))
+          return false;
     }
-  for (int i = 0; i < 2; i++)
+  return true;
+}
+
+/* The outer end of an arrow that has a head, or the one that has none; NO_END if it is a ring. */
+static size_t
+outer_end (const CeldHeadChoice *s, size_t chain, bool marked)
+{
+  for (size_t i = 0; i < 2 * s->lines->graph.n_lines; i++)
     {
-      bool here = is_marked (s, 2 * k + (size_t) i);
+      bool passes = false;
 
-      a.role[i] = !a.n ? 0 : here == (s->lines->style != CELD_ARROW_DOT) ? 1 : -1;
-      a.seen[i] = s->lines->style == CELD_ARROW_DOT ||
-                  (here && fmin (e[i].barb_score[0], e[i].barb_score[1]) >= CLEAR_SIDE);
+      for (size_t k = 0; k < s->n_passes; k++)
+        passes |= s->pass[k].on && (s->pass[k].end[0] == i || s->pass[k].end[1] == i);
+      if (s->chain[i / 2] == chain && !passes && s->marked[i] == marked)
+        return i;
     }
-  return a;
+  return NO_END;
+}
+
+/* Finds the place of an end; false if it is not apart from others, or paint is there that nothing explains, or if two
+ * lines meet there almost straight without a head or dot, so that nothing shows where. */
+static bool
+find_place (const CeldHeadChoice *s, size_t end, CeldPoint *place)
+{
+  const CeldNodeMarks *node = &s->node[celd_joined_node (s->lines, end)];
+  unsigned             set = celd_head_choice_at (s, celd_joined_node (s->lines, end));
+
+  if (!node->cost || (node->n == 2 && !set && turn_between (s->lines, node->end[0], node->end[1]) < PASS_TURN))
+    return false;
+  *place = node->tip[set];
+  return node->cost[set] <= MOST_REST && celd_joined_widths_apart (s->lines, end) <= CELD_MOST_APART;
+}
+
+/* Does the paint of a tip reach the frame of the picture?  Then a head or dot may lie beyond it. */
+static bool
+is_at_frame (const CeldJoinedLines *s, CeldPoint tip)
+{
+  double x = tip.x + s->mask.left, y = tip.y + s->mask.top, reach = s->graph.width + 1;
+
+  return fmin (x, y) < reach || x > s->stroke->width - reach || y > s->stroke->height - reach;
+}
+
+/* Is it clear that there is no head or dot at an end, if it is free?  One that other colours hide is not looked for. */
+static bool
+is_bare (const CeldHeadChoice *s, size_t end)
+{
+  const CeldNodeMarks *node = &s->node[celd_joined_node (s->lines, end)];
+  CeldPoint            tip = node->tip[0];
+
+  return node->n > 1 || (!is_at_frame (s->lines, tip) &&
+                         (celd_joined_hidden_share (s->lines, tip, OTHERS * s->lines->graph.width) > 0 ||
+                          node->cost[0] + BARE_MARGIN <= node->cost[1]));
+}
+
+/* Are all lines of an arrow long enough, without other paint along them? */
+static bool
+is_plausible (const CeldHeadChoice *s, size_t chain)
+{
+  const CeldJoinedLines *lines = s->lines;
+
+  for (size_t k = 0; k < lines->graph.n_lines; k++)
+    if (s->chain[k] == chain && (!is_long_enough (lines, k) ||
+                                 !celd_joined_is_alone (lines, k, (size_t) (CELD_NODE_REACH * lines->graph.width))))
+      return false;
+  return true;
+}
+
+/* The arrow of a chain of lines.  A head is the farther end, a dot the nearer one. */
+static CeldLineArrows
+arrow_of (const CeldHeadChoice *s, size_t chain)
+{
+  size_t         head = outer_end (s, chain, true), tail = outer_end (s, chain, false);
+  bool           dot = s->lines->style == CELD_ARROW_DOT;
+  CeldLineArrows arrow = { .n = 0 };
+  CeldPoint      marked, other;
+
+  if (s->heads[chain] != 1 || head == NO_END || tail == NO_END || !is_clear (s, chain) || !is_plausible (s, chain) ||
+      !find_place (s, head, &marked) || !find_place (s, tail, &other) || !is_bare (s, tail))
+    return arrow;
+  arrow.n          = 1;
+  arrow.nearer[0]  = dot ? marked : other;
+  arrow.farther[0] = dot ? other : marked;
+  return arrow;
+}
+
+static CeldStatus
+choice_new (CeldJoinedLines *lines, CeldHeadChoice *s)
+{
+  size_t n = lines->graph.n_lines;
+
+  *s = (CeldHeadChoice) {
+    .lines  = lines,
+    .node   = celd_alloc0 (lines->graph.n_nodes, sizeof *s->node),
+    .marked = celd_alloc0 (2 * n, sizeof *s->marked),
+    .chain  = celd_alloc0 (n, sizeof *s->chain),
+    .heads  = celd_alloc0 (n, sizeof *s->heads),
+    .margin = celd_alloc0 (n, sizeof *s->margin),
+    .short_line = celd_alloc0 (n, sizeof *s->short_line),
+  };
+  return s->node && s->marked && s->chain && s->heads && s->margin && s->short_line ? CELD_OK : CELD_NO_MEMORY;
+}
+
+static void
+choice_clear (CeldHeadChoice *s)
+{
+  for (size_t k = 0; s->node && k < s->lines->graph.n_nodes; k++)
+    {
+      celd_free (s->node[k].cost);
+      celd_free (s->node[k].tip);
+    }
+  celd_free (s->node);
+  celd_free (s->pass);
+  celd_free (s->marked);
+  celd_free (s->chain);
+  celd_free (s->heads);
+  celd_free (s->margin);
+  celd_free (s->short_line);
 }
 
 CeldStatus
 celd_joined_heads_read (CeldJoinedLines *lines, CeldLineArrows *arrows)
 {
-  Heads      s = { .lines = lines };
-  bool       joined = true;
-  CeldStatus status = CELD_OK;
+  CeldHeadChoice s;
+  CeldStatus     status = choice_new (lines, &s);
 
-  while (status == CELD_OK && joined)
-    {
-      status = find_marks (lines);
-      if (status == CELD_OK)
-        status = join_through (lines, &joined);
-    }
-  s.marked = celd_alloc (lines->graph.n_lines, sizeof *s.marked);
-  s.heads  = celd_alloc (2 * lines->graph.n_lines, sizeof *s.heads);
-  if (status == CELD_OK && (!s.marked || !s.heads))
-    status = CELD_NO_MEMORY;
   if (status == CELD_OK)
-    {
-      for (size_t k = 0; k < lines->graph.n_lines; k++)
-        s.marked[k] = UNCLEAR;
-      decide_all (&s);
-      place_nodes (&s);
-      for (size_t k = 0; k < lines->graph.n_lines; k++)
-        arrows[k] = arrows_of (&s, k);
-    }
-  celd_free (s.marked);
-  celd_free (s.heads);
+    status = find_node_marks (&s);
+  if (status == CELD_OK)
+    status = find_passes (&s);
+  if (status == CELD_OK)
+    status = celd_head_choice_find (&s);
+  for (size_t k = 0; k < lines->graph.n_lines && status == CELD_OK; k++)
+    if (s.chain[k] == k)
+      arrows[k] = arrow_of (&s, k);
+    else
+      arrows[k].part = true;
+  choice_clear (&s);
   return status;
 }

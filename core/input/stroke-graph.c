@@ -265,6 +265,27 @@ divide_where_wide (Build *b)
   return status;
 }
 
+/* Divides lines at their corners, where an arrow may begin or end. */
+static CeldStatus
+divide_at_corners (CeldStrokeGraph *g)
+{
+  CeldStatus status = CELD_OK;
+  CeldPoint  corner;
+
+  for (size_t k = 0; k < g->n_lines && status == CELD_OK; k++)
+    if (celd_stroke_line_corner (g, k, &corner))
+      {
+        size_t at = 0;
+
+        for (size_t i = 1; i < g->line[k].n; i++)
+          if (celd_points_apart (g->line[k].at[i], corner) < celd_points_apart (g->line[k].at[at], corner))
+            at = i;
+        status = divide (g, k, at);
+        k -= status == CELD_OK;
+      }
+  return status;
+}
+
 CeldStatus
 celd_stroke_graph_new (const CeldStrokeMask *mask, bool divided, CeldStrokeGraph *graph)
 {
@@ -286,6 +307,10 @@ celd_stroke_graph_new (const CeldStrokeMask *mask, bool divided, CeldStrokeGraph
     merge_nodes (&b.graph);
   if (status == CELD_OK && divided)
     status = divide_where_wide (&b);
+  if (status == CELD_OK && divided)
+    merge_nodes (&b.graph);
+  if (status == CELD_OK && divided)
+    status = divide_at_corners (&b.graph);
   if (status != CELD_OK)
     celd_stroke_graph_clear (&b.graph);
   *graph = b.graph;
