@@ -47,11 +47,11 @@ find_chains (CeldHeadChoice *s)
   for (bool again = true; again;)
     {
       again = false;
-      for (size_t i = 0; i < s->n_passes; i++)
+      for (size_t i = 0; i < s->n_on; i++)
         {
-          size_t *a = &s->chain[s->pass[i].end[0] / 2], *b = &s->chain[s->pass[i].end[1] / 2];
+          size_t *a = &s->chain[s->pass[s->on[i]].end[0] / 2], *b = &s->chain[s->pass[s->on[i]].end[1] / 2];
 
-          if (!s->pass[i].on || *a == *b)
+          if (*a == *b)
             continue;
           *a = *b = *a < *b ? *a : *b;
           again = true;
@@ -59,26 +59,27 @@ find_chains (CeldHeadChoice *s)
     }
 }
 
-/* Do two passes have an end in common? */
-static bool
-share_end (const CeldArrowPass *a, const CeldArrowPass *b)
-{
-  return a->end[0] == b->end[0] || a->end[0] == b->end[1] || a->end[1] == b->end[0] || a->end[1] == b->end[1];
-}
-
+/* What the passes that are on cost; lists them. */
 static double
-cost_of_passes (const CeldHeadChoice *s)
+cost_of_passes (CeldHeadChoice *s)
 {
   double cost = 0;
 
+  memset (s->passed, 0, 2 * s->lines->graph.n_lines);
+  s->n_on = 0;
   for (size_t i = 0; i < s->n_passes; i++)
-    {
-      if (!s->pass[i].on)
-        continue;
-      cost += s->pass[i].cost + IMPOSSIBLE * (s->marked[s->pass[i].end[0]] + s->marked[s->pass[i].end[1]]);
-      for (size_t j = i + 1; j < s->n_passes; j++)
-        cost += s->pass[j].on && share_end (&s->pass[i], &s->pass[j]) ? IMPOSSIBLE : 0;
-    }
+    if (s->pass[i].on)
+      {
+        cost += s->pass[i].cost;
+        s->on[s->n_on++] = i;
+        for (int side = 0; side < 2; side++)
+          {
+            size_t end = s->pass[i].end[side];
+
+            cost += s->marked[end] || s->passed[end] ? IMPOSSIBLE : 0;
+            s->passed[end] = true;
+          }
+      }
   return cost;
 }
 
@@ -249,8 +250,12 @@ celd_head_choice_find (CeldHeadChoice *s)
   double least;
   int    restarts = 0;
 
-  if (!best)
-    return CELD_NO_MEMORY;
+  s->on = celd_alloc (s->n_passes, sizeof *s->on);
+  if (!best || !s->on)
+    {
+      celd_free (best);
+      return CELD_NO_MEMORY;
+    }
   for (size_t k = 0; k < n; k++)
     s->short_line[k] = may_be_barb (s->lines, k);
   least = descend (s, HOLD_NONE, HOLD_NONE);

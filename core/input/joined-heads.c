@@ -157,14 +157,8 @@ static size_t
 outer_end (const CeldHeadChoice *s, size_t chain, bool marked)
 {
   for (size_t i = 0; i < 2 * s->lines->graph.n_lines; i++)
-    {
-      bool passes = false;
-
-      for (size_t k = 0; k < s->n_passes; k++)
-        passes |= s->pass[k].on && (s->pass[k].end[0] == i || s->pass[k].end[1] == i);
-      if (s->chain[i / 2] == chain && !passes && s->marked[i] == marked)
-        return i;
-    }
+    if (s->chain[i / 2] == chain && !s->passed[i] && s->marked[i] == marked)
+      return i;
   return NO_END;
 }
 
@@ -243,12 +237,13 @@ choice_new (CeldJoinedLines *lines, CeldHeadChoice *s)
     .lines  = lines,
     .node   = celd_alloc0 (lines->graph.n_nodes, sizeof *s->node),
     .marked = celd_alloc0 (2 * n, sizeof *s->marked),
+    .passed = celd_alloc0 (2 * n, sizeof *s->passed),
     .chain  = celd_alloc0 (n, sizeof *s->chain),
     .heads  = celd_alloc0 (n, sizeof *s->heads),
     .margin = celd_alloc0 (n, sizeof *s->margin),
     .short_line = celd_alloc0 (n, sizeof *s->short_line),
   };
-  return s->node && s->marked && s->chain && s->heads && s->margin && s->short_line ? CELD_OK : CELD_NO_MEMORY;
+  return s->node && s->marked && s->passed && s->chain && s->heads && s->margin && s->short_line ? CELD_OK : CELD_NO_MEMORY;
 }
 
 static void
@@ -261,7 +256,9 @@ choice_clear (CeldHeadChoice *s)
     }
   celd_free (s->node);
   celd_free (s->pass);
+  celd_free (s->on);
   celd_free (s->marked);
+  celd_free (s->passed);
   celd_free (s->chain);
   celd_free (s->heads);
   celd_free (s->margin);
