@@ -246,7 +246,7 @@ CeldStatus
 celd_head_choice_find (CeldHeadChoice *s)
 {
   size_t n = s->lines->graph.n_lines, size = 2 * n + s->n_passes;
-  bool  *best = celd_alloc (size, 2), *other = best + size;
+  bool  *best = celd_alloc (size, 2), *other;
   double least;
   int    restarts = 0;
 
@@ -256,6 +256,7 @@ celd_head_choice_find (CeldHeadChoice *s)
       celd_free (best);
       return CELD_NO_MEMORY;
     }
+  other = best + size;
   for (size_t k = 0; k < n; k++)
     s->short_line[k] = may_be_barb (s->lines, k);
   least = descend (s, HOLD_NONE, HOLD_NONE);
