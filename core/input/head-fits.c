@@ -16,17 +16,16 @@
 #include <string.h>
 
 /* All chosen; lengths are widths of the paint. */
-#define WIDTH_SAMPLES      8    /* in a width, at most one a pixel */
+#define WIDTH_SAMPLES 8      /* in a width, at most one a pixel */
 #define TIP_STEP     0.5  /* between places for the tip, ... */
 #define TIP_STEPS    4    /* ... on either side of where the lines meet, ... */
 #define TIP_OFF      0.05 /* ... and what the square of that distance costs */
 #define AS_GOOD      0.15 /* of the cost: places of which the middle is taken */
 #define LEAST_SPLAY  0.3  /* radians between the line and a barb, ... */
 #define MOST_SPLAY   1.05
-#define SPREAD_STEP   0.1
+#define SPLAY_STEP   0.1 
 #define BARB_FROM    0.5  /* from the tip to where a barb begins, ... */
-#define LEAST_BARB   2    /* ... to where it ends at least, ... */
-#define MOST_BARB    5.5  /* ... and at most */
+#define LEAST_BARB   2    /* ... to where it ends at least; at most at CELD_HEAD_REACH */
 #define BARB_HALF    0.4  /* of its width is looked at on either side, ... */
 #define BARB_BODY    0.65 /* ... and so much, and a pixel more, is explained */
 #define LINE_BODY    0.6  /* on either side of a line, and a pixel more */
@@ -172,7 +171,7 @@ fit_length (const CeldJoinedLines *s, const PaintWindow *w, CeldPoint tip, CeldP
   Barb      barb = { .along = along, .angle = angle, .gain = -INFINITY };
   double    gain = 0, missed = 0, seen = 0, width = s->graph.width, body = LINE_BODY * width + 1;
 
-  for (double r = BARB_FROM * width; r <= MOST_BARB * width; r += w->step)
+  for (double r = BARB_FROM * width; r <= CELD_HEAD_REACH * width; r += w->step)
     {
       CeldPoint p = celd_moved (tip, along, r);
       double    from = filled ? 0 : -BARB_HALF * width, to = filled ? r * fabs (sin (angle)) : BARB_HALF * width;
@@ -183,7 +182,8 @@ fit_length (const CeldJoinedLines *s, const PaintWindow *w, CeldPoint tip, CeldP
 
           gain   += at == SAMPLE_PAINT ? w->area : at == SAMPLE_BARE ? -w->area : 0;
           missed += at == SAMPLE_BARE ? w->area : 0;
-          seen   += at == SAMPLE_PAINT || (at == SAMPLE_UNKNOWN && fabs (r * sin (angle)) - fabs (o) > body) ? w->area : 0;
+          if (at == SAMPLE_PAINT || (at == SAMPLE_UNKNOWN && fabs (r * sin (angle)) - fabs (o) > body))
+            seen += w->area;
         }
       if (r >= LEAST_BARB * width && gain > barb.gain)
         {
@@ -208,7 +208,7 @@ fit_head (const CeldJoinedLines *s, const PaintWindow *w, CeldPoint tip, CeldPoi
       for (int side = 0; side < 2; side++)
         {
           head.barb[side].gain = -INFINITY;
-          for (double angle = LEAST_SPLAY; angle <= MOST_SPLAY; angle += SPREAD_STEP)
+          for (double angle = LEAST_SPLAY; angle <= MOST_SPLAY; angle += SPLAY_STEP)
             {
               Barb barb = fit_length (s, w, tip, way, side ? angle : -angle, filled);
 
@@ -254,12 +254,16 @@ head_explains (const CeldJoinedLines *s, const Head *head, CeldPoint tip, CeldPo
 static void
 costs_at (const CeldJoinedLines *s, const CeldNodeMarks *node, CeldPoint tip, PaintWindow *w, double *cost)
 {
-  double lead = lead_lines (s, node, tip, w), rest[1 << CELD_MOST_MARKS] = { 0 };
-  Head   head[CELD_MOST_MARKS];
-  int    n = s->style == CELD_ARROW_DOT ? 0 : node->n; /* heads */
+  double    lead = lead_lines (s, node, tip, w), rest[1 << CELD_MOST_MARKS] = { 0 };
+  Head      head[CELD_MOST_MARKS];
+  CeldPoint way[CELD_MOST_MARKS];
+  int       n = s->style == CELD_ARROW_DOT ? 0 : node->n; /* heads */
 
   for (int e = 0; e < n; e++)
-    head[e] = fit_head (s, w, tip, celd_joined_way (s, node->end[e]));
+    {
+      way[e]  = celd_joined_way (s, node->end[e]);
+      head[e] = fit_head (s, w, tip, way[e]);
+    }
   for (int y = 0, i = 0; y < w->side; y++)
     for (int x = 0; x < w->side; x++, i++)
       if (w->own[i] && w->at[i] == SAMPLE_PAINT)
@@ -268,7 +272,7 @@ costs_at (const CeldJoinedLines *s, const CeldNodeMarks *node, CeldPoint tip, Pa
           unsigned  by = 0;
 
           for (int e = 0; e < n; e++)
-            by |= head_explains (s, &head[e], tip, celd_joined_way (s, node->end[e]), p) ? 1u << e : 0;
+            by |= head_explains (s, &head[e], tip, way[e], p) ? 1u << e : 0;
           rest[by] += w->area;
         }
   for (unsigned set = 0; set < 1u << node->n; set++)
@@ -409,8 +413,8 @@ find_places (const CeldJoinedLines *s, CeldPoint meeting, PaintWindow *w, CeldNo
 CeldStatus
 celd_node_marks_find (const CeldJoinedLines *s, size_t node, const CeldPoint *meeting, CeldNodeMarks *marks)
 {
-  PaintWindow     w = { .far = NULL };
-  CeldStatus status = window_new (s, node, meeting, &w);
+  PaintWindow w = { .far = NULL };
+  CeldStatus  status = window_new (s, node, meeting, &w);
 
   if (status == CELD_OK)
     status = find_places (s, meeting[node], &w, marks);

@@ -406,7 +406,8 @@ typedef struct
 CeldStatus celd_stroke_trace (const CeldStrokeMask *mask, CeldStrokeGraph *graph);
 
 /* The long ones of these lines; with `divided`, they end also at corners, and where the paint is much wider than
- * elsewhere, as it is at heads and dots.  None if there are more than 2000 lines, which are no arrows.  To be cleared by the caller. */
+ * elsewhere, as it is at heads and dots.  None if there are more than 2000 lines, which are no arrows.  To be cleared by
+ * the caller. */
 CeldStatus celd_stroke_graph_new (const CeldStrokeMask *mask, bool divided, CeldStrokeGraph *graph);
 void       celd_stroke_graph_clear (CeldStrokeGraph *graph);
 

@@ -103,12 +103,14 @@ find_passes (CeldHeadChoice *s)
   for (size_t a = 0; a < 2 * lines->graph.n_lines; a++)
     for (size_t b = a + 1; b < 2 * lines->graph.n_lines && status == CELD_OK; b++)
       {
-        double turn = turn_between (lines, a, b);
         bool   corner = s->node[celd_joined_node (lines, a)].n == 2;
-        double cost = pow (turn / (corner ? FREE_BEND : FREE_TURN), 2);
+        double turn, cost;
 
-        if (a / 2 != b / 2 && celd_joined_node (lines, a) == celd_joined_node (lines, b) &&
-            turn <= (corner ? MOST_BEND : PASS_TURN))
+        if (a / 2 == b / 2 || celd_joined_node (lines, a) != celd_joined_node (lines, b))
+          continue;
+        turn = turn_between (lines, a, b);
+        cost = pow (turn / (corner ? FREE_BEND : FREE_TURN), 2);
+        if (turn <= (corner ? MOST_BEND : PASS_TURN))
           status = celd_append (s->pass, s->n_passes, s->pass_capacity, ((CeldArrowPass) { { a, b }, cost, false }));
       }
   return status;
@@ -130,8 +132,8 @@ is_long_enough (const CeldJoinedLines *lines, size_t k)
   return celd_stroke_line_length (&lines->graph.line[k]) >= least_length (lines, k) * lines->graph.width;
 }
 
-/* Are the lines of an arrow, and those that they meet, clearly better than other choices?  A line with two heads, or one that
- * is too short for its head, is not one arrow, and what is next to it may be part of another. */
+/* Are the lines of an arrow, and those that they meet, clearly better than other choices?  A line with two heads, or one
+ * that is too short for its head, is not one arrow, and what is next to it may be part of another. */
 static bool
 is_clear (const CeldHeadChoice *s, size_t chain)
 {
@@ -243,7 +245,8 @@ choice_new (CeldJoinedLines *lines, CeldHeadChoice *s)
     .margin = celd_alloc0 (n, sizeof *s->margin),
     .short_line = celd_alloc0 (n, sizeof *s->short_line),
   };
-  return s->node && s->marked && s->passed && s->chain && s->heads && s->margin && s->short_line ? CELD_OK : CELD_NO_MEMORY;
+  return s->node && s->marked && s->passed && s->chain && s->heads && s->margin && s->short_line ? CELD_OK
+                                                                                                 : CELD_NO_MEMORY;
 }
 
 static void
