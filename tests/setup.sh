@@ -81,6 +81,16 @@ build_with_clang ()
   build_tree "$@"
 )
 
+# A build with a sanitizer, by -O1: more of its time is the compiler's than that of what runs.
+build_sanitized ()
+{
+  local folder=$1 sanitizer=$2
+  [ -e "$folder/build.ninja" ] ||
+    meson setup "$folder" -Ddebug=true -Doptimization=1 -Db_lundef=false -Db_sanitize="$sanitizer" || return 1
+  shift 2
+  ninja -C "$folder" "$@"
+}
+
 # install_for_user FOLDER HOME: builds in the folder without tests, and installs into a home.  A kept build that is
 # configured again needs it too, or plug-ins would go to the system.  Compiling keeps the caller's home, and with it the
 # compiler's cache.
@@ -209,3 +219,16 @@ meson_test ()
        END { printf "%d passed, %d failed, %d skipped\n", passed, failed, skipped }' "$folder/meson-test.out"
   return $status
 }
+
+# sanitized_test FOLDER OPTION...: the same for a build with the address sanitizer
+sanitized_test ()
+(
+  export UBSAN_OPTIONS=print_stacktrace=1:halt_on_error=1
+  # Leaks in libraries that are not ours are not reported.
+  export LSAN_OPTIONS=suppressions=$PWD/tests/leaks.supp:print_suppressions=0
+  # Where plugins have variables of a thread, gcc 12's leak check takes stray bytes for their bounds, and crashes.
+  export ASAN_OPTIONS=intercept_tls_get_addr=0
+  # Libraries that GEGL's own modules need leave memory behind when they are unloaded.
+  export G_DEBUG=resident-modules
+  meson_test "$@" --timeout-multiplier 5
+)
