@@ -2,7 +2,8 @@
  *
  * A choice costs what it leaves unexplained at nodes, lines without a head or with two, and arrows that turn where they
  * pass a node.  From no heads at all, one or two lines that meet are changed at a time as long as that costs less.  For
- * the margin of a line, everything that it may have instead is held, and the others are changed in the same way.
+ * the margin of a line, everything that it may have instead is held, and those that it meets are changed in the same way,
+ * and those that meet what was changed.
  *
  * Cost: for each line, some hundred choices of the lines that it meets, each as long as the number of lines.
  *
@@ -126,6 +127,27 @@ set_heads (CeldHeadChoice *s, size_t k, unsigned heads)
   s->marked[2 * k + 1] = heads >> 1 & 1;
 }
 
+static bool
+meet (const CeldHeadChoice *s, size_t a, size_t b)
+{
+  const int *u = s->lines->graph.line[a].node, *v = s->lines->graph.line[b].node;
+
+  return u[0] == v[0] || u[0] == v[1] || u[1] == v[0] || u[1] == v[1];
+}
+
+/* Lets all lines be tried again whose cost depends on the heads of a line: those of its arrow, and those that meet
+ * them. */
+static void
+try_round (CeldHeadChoice *s, size_t k)
+{
+  size_t n = s->lines->graph.n_lines;
+
+  total (s); /* finds its arrow */
+  for (size_t a = 0; a < n; a++)
+    for (size_t b = 0; s->chain[a] == s->chain[k] && b < n; b++)
+      s->tried_next[b] |= meet (s, a, b);
+}
+
 /* Tries all heads of two lines, or of one if they are the same, with `pass` the other way if it is given; keeps what
  * costs least.  The line `held` keeps its heads. */
 static bool
@@ -158,33 +180,45 @@ improve (CeldHeadChoice *s, size_t a, size_t b, CeldArrowPass *pass, size_t held
   set_heads (s, b, best[1]);
   if (pass && !better)
     pass->on = !pass->on;
+  if (better)
+    {
+      try_round (s, a);
+      try_round (s, b);
+    }
   return better;
 }
 
+/* Is one of two lines to be tried? */
 static bool
-meet (const CeldHeadChoice *s, size_t a, size_t b)
+is_tried (const CeldHeadChoice *s, size_t a, size_t b)
 {
-  const int *u = s->lines->graph.line[a].node, *v = s->lines->graph.line[b].node;
-
-  return u[0] == v[0] || u[0] == v[1] || u[1] == v[0] || u[1] == v[1];
+  return s->tried[a] || s->tried[b] || s->tried_next[a] || s->tried_next[b];
 }
 
-/* Changes lines and passes until nothing costs less; a line or pass that is held stays.  Returns the cost. */
+/* Changes lines and passes until nothing costs less; a line or pass that is held stays.  Only lines of `tried_next` and
+ * what then changes round them are tried.  Returns the cost. */
 static double
 descend (CeldHeadChoice *s, size_t held_line, size_t held_pass)
 {
+  size_t n = s->lines->graph.n_lines;
   double least = total (s);
 
   for (bool again = true; again;)
     {
       again = false;
-      for (size_t a = 0; a < s->lines->graph.n_lines; a++)
-        for (size_t b = a; b < s->lines->graph.n_lines; b++)
-          if (meet (s, a, b))
-            again |= improve (s, a, b, NULL, held_line, &least);
+      memcpy (s->tried, s->tried_next, n * sizeof *s->tried);
+      memset (s->tried_next, 0, n * sizeof *s->tried_next);
+      for (size_t a = 0; a < n; a++)
+        for (size_t b = a; b < n; b++)
+          if (meet (s, a, b) && is_tried (s, a, b) && improve (s, a, b, NULL, held_line, &least))
+            again = true;
       for (size_t i = 0; i < s->n_passes; i++)
-        if (i != held_pass)
-          again |= improve (s, s->pass[i].end[0] / 2, s->pass[i].end[1] / 2, &s->pass[i], held_line, &least);
+        {
+          size_t a = s->pass[i].end[0] / 2, b = s->pass[i].end[1] / 2;
+
+          if (i != held_pass && is_tried (s, a, b) && improve (s, a, b, &s->pass[i], held_line, &least))
+            again = true;
+        }
     }
   return least;
 }
@@ -230,6 +264,7 @@ cost_of_others (CeldHeadChoice *s, size_t k, const bool *best, bool *other)
       if (heads_of (s, k) == heads)
         continue;
       set_heads (s, k, heads);
+      try_round (s, k);
       keep_least (s, descend (s, k, HOLD_NONE), &least, other);
     }
   for (size_t i = 0; i < s->n_passes; i++)
@@ -237,28 +272,23 @@ cost_of_others (CeldHeadChoice *s, size_t k, const bool *best, bool *other)
       {
         restore (s, best);
         s->pass[i].on = !s->pass[i].on;
+        try_round (s, s->pass[i].end[0] / 2);
+        try_round (s, s->pass[i].end[1] / 2);
         keep_least (s, descend (s, HOLD_NONE, i), &least, other);
       }
   return least;
 }
 
-CeldStatus
-celd_head_choice_find (CeldHeadChoice *s)
+/* Finds the best choice, and the margins of all lines; `saved` is memory for two choices. */
+static void
+find_best (CeldHeadChoice *s, bool *saved)
 {
   size_t n = s->lines->graph.n_lines, size = 2 * n + s->n_passes;
-  bool  *best = celd_alloc (size, 2), *other;
+  bool  *best = saved, *other = saved + size;
   double least;
   int    restarts = 0;
 
-  s->on = celd_alloc (s->n_passes, sizeof *s->on);
-  if (!best || !s->on)
-    {
-      celd_free (best);
-      return CELD_NO_MEMORY;
-    }
-  other = best + size;
-  for (size_t k = 0; k < n; k++)
-    s->short_line[k] = may_be_barb (s->lines, k);
+  memset (s->tried_next, true, n * sizeof *s->tried_next);
   least = descend (s, HOLD_NONE, HOLD_NONE);
   save (s, best);
   for (size_t k = 0; k < n;)
@@ -275,6 +305,28 @@ celd_head_choice_find (CeldHeadChoice *s)
     }
   restore (s, best);
   total (s); /* finds its chains and heads */
-  celd_free (best);
-  return CELD_OK;
+}
+
+CeldStatus
+celd_head_choice_find (CeldHeadChoice *s)
+{
+  size_t n = s->lines->graph.n_lines;
+  bool  *saved = celd_alloc (2 * n + s->n_passes, 2), enough;
+
+  s->on    = celd_alloc (s->n_passes, sizeof *s->on);
+  s->tried = celd_alloc0 (n, 2 * sizeof *s->tried);
+  enough   = saved && s->on && s->tried;
+  if (enough)
+    {
+      s->tried_next = s->tried + n;
+      for (size_t k = 0; k < n; k++)
+        s->short_line[k] = may_be_barb (s->lines, k);
+      find_best (s, saved);
+    }
+  celd_free (saved);
+  celd_free (s->on);
+  celd_free (s->tried);
+  s->on    = NULL;
+  s->tried = s->tried_next = NULL;
+  return enough ? CELD_OK : CELD_NO_MEMORY;
 }

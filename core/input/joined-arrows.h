@@ -150,14 +150,15 @@ typedef struct
   CeldNodeMarks         *node;
   CeldArrowPass         *pass;
   size_t                 n_passes, pass_capacity;
-  size_t                *on;         /* the passes that are on, n_on of them */
-  size_t                 n_on;
   bool                  *marked;     /* of each end */
   bool                  *passed;     /* of each end: does an arrow pass its node? */
   bool                  *short_line; /* of each line: may it be the barb of a head? */
   size_t                *chain;
   int                   *heads;
   double                *margin;
+  /* Of the search: the passes that are on, n_on of them; the lines that are tried now, and in the next round. */
+  size_t                *on, n_on;
+  bool                  *tried, *tried_next;
 } CeldHeadChoice;
 
 /* Finds the choice that costs least, from one without heads and passes. */

@@ -259,7 +259,6 @@ choice_clear (CeldHeadChoice *s)
     }
   celd_free (s->node);
   celd_free (s->pass);
-  celd_free (s->on);
   celd_free (s->marked);
   celd_free (s->passed);
   celd_free (s->chain);
