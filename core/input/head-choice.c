@@ -2,8 +2,8 @@
  *
  * A choice costs what it leaves unexplained at nodes, lines without a head or with two, and arrows that turn where they
  * pass a node.  From no heads at all, one or two lines that meet are changed at a time as long as that costs less.  For
- * the margin of a line, everything that it may have instead is held, and those that it meets are changed in the same way,
- * and those that meet what was changed.
+ * the margin of a line, everything that it may have instead is held, and those that it meets are changed in the same
+ * way, and those that meet what was changed.
  *
  * Cost: for each line, some hundred choices of the lines that it meets, each as long as the number of lines.
  *

@@ -328,6 +328,11 @@ bool celd_stroke_changes_colour (const CeldArrowStroke *stroke, const CeldArrowL
 bool celd_arrow_profile (CeldArrowStroke *stroke, const CeldArrowLayer *layer, CeldArrowStyle style,
                          CeldArrowEnds *ends);
 
+/* The distance at which the opacity or width of a stroke that is followed from an end jumps or turns, because two
+ * arrows meet there; 0: there is none.  width: of the stroke. */
+CeldStatus celd_stroke_turn_find (const CeldArrowStroke *stroke, const CeldArrowLayer *layer, CeldArrowStyle style,
+                                  double width, double *distance);
+
 /* ------------------------------------------------------------------ crossings.c */
 
 /* Where two strokes cross: arms 0 and 2 are one of them, 1 and 3 the other, on a circle round the crossing. */

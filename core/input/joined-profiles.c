@@ -1,7 +1,8 @@
 /* Which way each of several lines that meet fades or tapers.
  *
  * The paint of each line is read alone (arrow-profile.c), without that round places where it meets others, which is of
- * several.  A line that is unclear as a whole may be two arrows that meet at its corner.
+ * several.  A line that is unclear as a whole may be two arrows that meet at its corner, or where its opacity or width
+ * turns (profile-turn.c).
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -78,26 +79,32 @@ from_corner (const CeldStrokeLine *line, size_t at, double steps)
   return (CeldPoint) { line->at[to].x - line->at[at].x, line->at[to].y - line->at[at].y };
 }
 
-/* The two arrows that meet at the corner of a line. */
+/* The point of a line that is nearest to a place. */
+static size_t
+nearest_point (const CeldStrokeLine *line, CeldPoint place)
+{
+  size_t at = 0;
+
+  for (size_t i = 1; i < line->n; i++)
+    if (celd_points_apart (line->at[i], place) < celd_points_apart (line->at[at], place))
+      at = i;
+  return at;
+}
+
+/* The two arrows that meet at a place of a line, near one of its points. */
 static CeldStatus
-read_corner (CeldJoinedLines *s, const LinePart *whole, const CeldArrowLayer *layer, CeldLineArrows *to)
+read_two (CeldJoinedLines *s, const LinePart *whole, size_t at, CeldPoint place, const CeldArrowLayer *layer,
+          CeldLineArrows *to)
 {
   const CeldStrokeLine *line = &s->graph.line[whole->line];
   LinePart              part[2] = { *whole, *whole };
-  CeldPoint             corner;
-  size_t                at = 0;
-  double                reach = CORNER_REACH * s->graph.width, apart;
+  double                reach = CORNER_REACH * s->graph.width;
+  double                apart = celd_widths_apart (from_corner (line, at, -reach), from_corner (line, at, reach));
   int                   tail[2] = { -1, -1 };
   CeldStatus            status = CELD_OK;
 
-  if (!celd_stroke_line_corner (&s->graph, whole->line, &corner))
-    return CELD_OK;
-  for (size_t i = 1; i < line->n; i++)
-    if (celd_points_apart (line->at[i], corner) < celd_points_apart (line->at[at], corner))
-      at = i;
-  apart = celd_widths_apart (from_corner (line, at, -reach), from_corner (line, at, reach));
   part[0].to       = part[1].from     = at;
-  part[0].place[1] = part[1].place[0] = corner;
+  part[0].place[1] = part[1].place[0] = place;
   part[0].apart[1] = part[1].apart[0] = apart;
   for (int i = 0; i < 2 && status == CELD_OK && apart <= CELD_MOST_APART; i++)
     status = read_part (s, &part[i], layer, to, &tail[i]);
@@ -109,6 +116,42 @@ read_corner (CeldJoinedLines *s, const LinePart *whole, const CeldArrowLayer *la
       to->role[1] = tail[1] == 1 ? -1 : 1;
     }
   return status;
+}
+
+/* The two arrows that meet at the corner of a line. */
+static CeldStatus
+read_corner (CeldJoinedLines *s, const LinePart *whole, const CeldArrowLayer *layer, CeldLineArrows *to)
+{
+  const CeldStrokeLine *line = &s->graph.line[whole->line];
+  CeldPoint             corner;
+
+  if (!celd_stroke_line_corner (&s->graph, whole->line, &corner))
+    return CELD_OK;
+  return read_two (s, whole, nearest_point (line, corner), corner, layer, to);
+}
+
+/* The two arrows that meet where the opacity or width of a line turns. */
+static CeldStatus
+read_turn (CeldJoinedLines *s, const LinePart *whole, const CeldArrowLayer *layer, CeldLineArrows *to)
+{
+  const CeldStrokeLine *line = &s->graph.line[whole->line];
+  CeldJoinedPiece       piece;
+  CeldPoint             place = { 0, 0 };
+  double                turn = 0;
+  CeldStatus            status;
+
+  allow_paint (s, whole);
+  status = celd_joined_take (s, line->at[line->n / 2], &piece);
+  if (status == CELD_OK && piece.stroke.n >= CELD_LEAST_STROKE)
+    {
+      uint32_t start = celd_stroke_follow (&piece.stroke, piece.stroke.pixel, 1);
+
+      celd_stroke_follow (&piece.stroke, &start, 1);
+      status = celd_stroke_turn_find (&piece.stroke, layer, s->style, s->graph.width, &turn);
+      place  = celd_joined_in_mask (s, celd_stroke_centroid (&piece.stroke, turn - 1, turn + 1));
+    }
+  celd_joined_release (&piece);
+  return turn > 0 ? read_two (s, whole, nearest_point (line, place), place, layer, to) : status;
 }
 
 static bool
@@ -137,7 +180,10 @@ read_line (CeldJoinedLines *s, size_t k, bool alone, const CeldArrowLayer *layer
     }
   status = read_part (s, &whole, layer, to, &tail);
   if (status == CELD_OK && tail < 0)
-    return read_corner (s, &whole, layer, to);
+    {
+      status = read_corner (s, &whole, layer, to);
+      return status == CELD_OK && !to->n && !s->hidden ? read_turn (s, &whole, layer, to) : status;
+    }
   for (int i = 0; i < 2; i++)
     to->role[i] = i == tail ? -1 : 1;
   return status;

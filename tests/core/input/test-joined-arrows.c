@@ -48,6 +48,70 @@ at_any_angles (void)
   read_at_any_angles (80, ONE, 0);
 }
 
+/* Two that fade or taper in one straight line: nothing else shows where they meet. */
+static void
+in_one_line (void)
+{
+  static const Sharing kinds[] = { FAN_OUT, FAN_IN, CHAIN };
+  uint32_t             state = 31;
+  int                  right = 0;
+
+  for (int i = 0; i < 90; i++)
+    {
+      CeldArrowStyle style = i % 2 ? CELD_ARROW_FADE : CELD_ARROW_TAPER;
+      CeldPaint      paint = blank (SIZE, SIZE);
+      double         angle = random_between (&state, 0, 6.28), w = random_between (&state, 6, 8);
+      Arrow          a[2];
+      Answer         answer;
+      int            found;
+
+      for (int k = 0; k < 2; k++)
+        {
+          a[k] = shared_arrow (kinds[i % 3], k, angle + 3.14159265 * k, random_between (&state, 12, 17) * w, w, style,
+                               true);
+          draw_arrow (&paint, &a[k], GREEN);
+        }
+      answer = read_paint (&paint, style);
+      found  = (int) count_read (&answer, a, 2, style);
+      CHECK ((int) answer.relations.n == found);
+      right += found;
+      forget (&answer);
+      free (paint.data);
+    }
+  CHECK (right >= 160);
+}
+
+/* A stroke that is thicker or stronger in its middle, as a brush makes it, is not two arrows. */
+static void
+swelling_strokes (void)
+{
+  for (int i = 0; i < 24; i++)
+    {
+      CeldArrowStyle style = i % 2 ? CELD_ARROW_FADE : CELD_ARROW_TAPER;
+      CeldPaint      paint = blank (SIZE, SIZE);
+      double         angle = 0.26 * i, w = 8 + i % 5, length = 12 * w / 30;
+      Answer         answer;
+
+      for (int k = 0; k < 30; k++)
+        {
+          double along = (k - 15) * length, from = 0.3 + 0.7 * sin (3.14159265 * k / 30);
+          double to = 0.3 + 0.7 * sin (3.14159265 * (k + 1) / 30);
+          Arrow  a = arrow_at ((Point) { SIZE / 2. + along * cos (angle), SIZE / 2. + along * sin (angle) }, angle,
+                               length, w, 0, 0, BARE, 0);
+
+          if (style == CELD_ARROW_FADE)
+            a.alpha = from, a.last_alpha = to;
+          else
+            a.width = w * from, a.last_width = w * to;
+          draw_arrow (&paint, &a, GREEN);
+        }
+      answer = read_paint (&paint, style);
+      CHECK (answer.relations.n == 0 && answer.problems.n == 1);
+      forget (&answer);
+      free (paint.data);
+    }
+}
+
 /* Strokes that meet and have neither heads nor dots, and are as opaque and wide everywhere, are not several arrows.
  * Three may look like one with long barbs. */
 static void
@@ -275,6 +339,8 @@ main (void)
   RUN (head_to_tail);
   RUN (side_by_side);
   RUN (at_any_angles);
+  RUN (in_one_line);
+  RUN (swelling_strokes);
   RUN (bare_strokes);
   RUN (in_a_net);
   RUN (round_a_loop);
