@@ -10,8 +10,6 @@
 #include <string.h>
 
 /* All chosen; lengths are widths of the paint. */
-#define BODY       0.6 /* from the middle of a line to the edge of its paint, ... */
-#define BODY_MORE  1   /* ... and pixels more */
 #define EDGE_MORE  1.5 /* pixels more than the radius of a wide line that belong to it */
 #define REST_ALONG 2.5 /* from the middle of a line, where no other paint may be, ... */
 #define MOST_ALONG 1   /* ... but so many square widths */
@@ -37,7 +35,7 @@ explain_disc (const CeldJoinedLines *s, CeldPoint c, double r)
 static void
 explain (const CeldJoinedLines *s, CeldPoint from, CeldPoint to)
 {
-  double r = BODY * s->graph.width + BODY_MORE, length = hypot (to.x - from.x, to.y - from.y);
+  double r = CELD_LINE_BODY * s->graph.width + 1, length = hypot (to.x - from.x, to.y - from.y);
 
   for (double d = 0; d <= length; d += 0.5)
     explain_disc (s, (CeldPoint) { from.x + (to.x - from.x) * d / fmax (length, 1),

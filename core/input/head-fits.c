@@ -28,7 +28,6 @@
 #define LEAST_BARB   2    /* ... to where it ends at least; at most at CELD_HEAD_REACH */
 #define BARB_HALF    0.4  /* of its width is looked at on either side, ... */
 #define BARB_BODY    0.65 /* ... and so much, and a pixel more, is explained */
-#define LINE_BODY    0.6  /* on either side of a line, and a pixel more */
 #define LEAST_HEAD   1.5  /* square widths of paint beside its line that a head has at least */
 #define LEAD_HALF    0.3  /* on either side of a line's last part, which should be painted */
 #define DOT_FREE     3    /* from a free end to the middle of its dot, at most, ... */
@@ -132,7 +131,7 @@ lead_lines (const CeldJoinedLines *s, const CeldNodeMarks *node, CeldPoint tip, 
   for (int e = 0; e < node->n; e++)
     {
       CeldPoint from = celd_joined_led_from (s, node->end[e]);
-      double    reach = LINE_BODY * width + 1;
+      double    reach = CELD_LINE_BODY * width + 1;
       int       left = (int) floor ((fmin (from.x, tip.x) - reach - w->corner.x) / w->step);
       int       right = (int) ceil ((fmax (from.x, tip.x) + reach - w->corner.x) / w->step);
       int       top = (int) floor ((fmin (from.y, tip.y) - reach - w->corner.y) / w->step);
@@ -169,7 +168,7 @@ fit_length (const CeldJoinedLines *s, const PaintWindow *w, CeldPoint tip, CeldP
   CeldPoint along = turned (way, angle), inward = turned (way, angle > 0 ? -CELD_PI / 2 : CELD_PI / 2);
   CeldPoint across = filled ? inward : turned (along, CELD_PI / 2);
   Barb      barb = { .along = along, .angle = angle, .gain = -INFINITY };
-  double    gain = 0, missed = 0, seen = 0, width = s->graph.width, body = LINE_BODY * width + 1;
+  double    gain = 0, missed = 0, seen = 0, width = s->graph.width, body = CELD_LINE_BODY * width + 1;
 
   for (double r = BARB_FROM * width; r <= CELD_HEAD_REACH * width; r += w->step)
     {

@@ -427,6 +427,9 @@ double celd_stroke_line_length (const CeldStrokeLine *line);
 /* The sharpest corner of a line: where its sides meet; false if it has none. */
 bool celd_stroke_line_corner (const CeldStrokeGraph *graph, size_t line, CeldPoint *place);
 
+/* The number of the point of a line that is nearest to a place. */
+size_t celd_stroke_line_nearest (const CeldStrokeLine *line, CeldPoint place);
+
 /* Adds a line through a point, in a direction of length 1.  The point nearest to all lines; `prior` decides if they are
  * parallel or none. */
 void      celd_line_sums_add (CeldLineSums *sums, CeldPoint p, CeldPoint way, double weight);

@@ -23,9 +23,7 @@ is_long (const CeldJoinedLines *s, size_t line)
 static bool
 go_straight_on (const CeldJoinedLines *s, size_t a, size_t b)
 {
-  CeldPoint u = celd_joined_way (s, a), v = celd_joined_way (s, b);
-
-  return celd_joined_node (s, a) == celd_joined_node (s, b) && u.x * v.x + u.y * v.y < -cos (STRAIGHT);
+  return celd_joined_node (s, a) == celd_joined_node (s, b) && celd_joined_turn (s, a, b) < STRAIGHT;
 }
 
 /* May a line be part of an arrow that passes at one of its ends? */

@@ -13,6 +13,7 @@
 #define CELD_MOST_APART 2.4 /* widths for which lines that meet may lie side by side; chosen: 30 degrees */
 #define CELD_MOST_MOVED 1.8 /* widths from a node to where its lines would meet, at most; chosen */
 #define CELD_HEAD_REACH 5.5 /* widths from the tip to the end of a barb, at most; chosen */
+#define CELD_LINE_BODY  0.6 /* widths from the middle of a line to the edge of its paint, and a pixel more; chosen */
 #define CELD_NODE_REACH 7   /* widths from a node up to which paint belongs to it; chosen */
 #define CELD_MOST_MARKS 7   /* lines that meet at a node, of which more are unclear; chosen */
 
@@ -37,6 +38,9 @@ typedef struct { CeldPoint nearer[2], farther[2]; int n, role[2]; bool part; } C
 
 bool      celd_joined_is_free (const CeldJoinedLines *lines, size_t end); /* does no other line end there? */
 CeldPoint celd_joined_way (const CeldJoinedLines *lines, size_t end);     /* the direction into the line */
+
+/* The angle by which an arrow would turn that comes along the line of one end and goes on along that of another one. */
+double celd_joined_turn (const CeldJoinedLines *lines, size_t a, size_t b);
 
 /* The point of the line of an end that is so many points from there. */
 CeldPoint celd_joined_point (const CeldJoinedLines *lines, size_t end, double steps);

@@ -84,15 +84,6 @@ find_node_marks (CeldHeadChoice *s)
   return status;
 }
 
-/* The angle by which an arrow would turn from one end to another one at its node. */
-static double
-turn_between (const CeldJoinedLines *lines, size_t a, size_t b)
-{
-  CeldPoint u = celd_joined_way (lines, a), v = celd_joined_way (lines, b);
-
-  return CELD_PI - acos (fmin (1, fmax (-1, u.x * v.x + u.y * v.y)));
-}
-
 /* Finds the pairs of ends where an arrow may pass; only two lines meet at a corner. */
 static CeldStatus
 find_passes (CeldHeadChoice *s)
@@ -108,7 +99,7 @@ find_passes (CeldHeadChoice *s)
 
         if (a / 2 == b / 2 || celd_joined_node (lines, a) != celd_joined_node (lines, b))
           continue;
-        turn = turn_between (lines, a, b);
+        turn = celd_joined_turn (lines, a, b);
         cost = pow (turn / (corner ? FREE_BEND : FREE_TURN), 2);
         if (turn <= (corner ? MOST_BEND : PASS_TURN))
           status = celd_append (s->pass, s->n_passes, s->pass_capacity, ((CeldArrowPass) { { a, b }, cost, false }));
@@ -172,7 +163,7 @@ find_place (const CeldHeadChoice *s, size_t end, CeldPoint *place)
   const CeldNodeMarks *node = &s->node[celd_joined_node (s->lines, end)];
   unsigned             set = celd_head_choice_at (s, celd_joined_node (s->lines, end));
 
-  if (!node->cost || (node->n == 2 && !set && turn_between (s->lines, node->end[0], node->end[1]) < PASS_TURN))
+  if (!node->cost || (node->n == 2 && !set && celd_joined_turn (s->lines, node->end[0], node->end[1]) < PASS_TURN))
     return false;
   *place = node->tip[set];
   return node->cost[set] <= MOST_REST && celd_joined_widths_apart (s->lines, end) <= CELD_MOST_APART;

@@ -58,6 +58,14 @@ celd_joined_way (const CeldJoinedLines *lines, size_t end)
   return (CeldPoint) { (b.x - a.x) / length, (b.y - a.y) / length };
 }
 
+double
+celd_joined_turn (const CeldJoinedLines *lines, size_t a, size_t b)
+{
+  CeldPoint u = celd_joined_way (lines, a), v = celd_joined_way (lines, b);
+
+  return CELD_PI - acos (fmin (1, fmax (-1, u.x * v.x + u.y * v.y)));
+}
+
 CeldPoint
 celd_joined_meeting_point (const CeldJoinedLines *lines, int node)
 {

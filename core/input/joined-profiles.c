@@ -79,24 +79,12 @@ from_corner (const CeldStrokeLine *line, size_t at, double steps)
   return (CeldPoint) { line->at[to].x - line->at[at].x, line->at[to].y - line->at[at].y };
 }
 
-/* The point of a line that is nearest to a place. */
-static size_t
-nearest_point (const CeldStrokeLine *line, CeldPoint place)
-{
-  size_t at = 0;
-
-  for (size_t i = 1; i < line->n; i++)
-    if (celd_points_apart (line->at[i], place) < celd_points_apart (line->at[at], place))
-      at = i;
-  return at;
-}
-
-/* The two arrows that meet at a place of a line, near one of its points. */
+/* The two arrows that meet at a place of a line. */
 static CeldStatus
-read_two (CeldJoinedLines *s, const LinePart *whole, size_t at, CeldPoint place, const CeldArrowLayer *layer,
-          CeldLineArrows *to)
+read_two (CeldJoinedLines *s, const LinePart *whole, CeldPoint place, const CeldArrowLayer *layer, CeldLineArrows *to)
 {
   const CeldStrokeLine *line = &s->graph.line[whole->line];
+  size_t                at = celd_stroke_line_nearest (line, place);
   LinePart              part[2] = { *whole, *whole };
   double                reach = CORNER_REACH * s->graph.width;
   double                apart = celd_widths_apart (from_corner (line, at, -reach), from_corner (line, at, reach));
@@ -122,12 +110,11 @@ read_two (CeldJoinedLines *s, const LinePart *whole, size_t at, CeldPoint place,
 static CeldStatus
 read_corner (CeldJoinedLines *s, const LinePart *whole, const CeldArrowLayer *layer, CeldLineArrows *to)
 {
-  const CeldStrokeLine *line = &s->graph.line[whole->line];
-  CeldPoint             corner;
+  CeldPoint corner;
 
   if (!celd_stroke_line_corner (&s->graph, whole->line, &corner))
     return CELD_OK;
-  return read_two (s, whole, nearest_point (line, corner), corner, layer, to);
+  return read_two (s, whole, corner, layer, to);
 }
 
 /* The two arrows that meet where the opacity or width of a line turns. */
@@ -151,7 +138,7 @@ read_turn (CeldJoinedLines *s, const LinePart *whole, const CeldArrowLayer *laye
       place  = celd_joined_in_mask (s, celd_stroke_centroid (&piece.stroke, turn - 1, turn + 1));
     }
   celd_joined_release (&piece);
-  return turn > 0 ? read_two (s, whole, nearest_point (line, place), place, layer, to) : status;
+  return turn > 0 ? read_two (s, whole, place, layer, to) : status;
 }
 
 static bool

@@ -113,20 +113,20 @@ misfit_of_parabola (const Profile *p, size_t from, size_t to)
 {
   double n = (double) (to - from), c[3] = { 0 }, misfit = 0;
 
-  for (int pass = 0; pass < 2; pass++)
-    for (size_t i = from; i < to; i++)
-      {
-        double t = 2 * ((double) (i - from) + 0.5) / n - 1, u = 1.5 * t * t - 0.5, v = p->value[i];
+  for (size_t i = from; i < to; i++)
+    {
+      double t = 2 * ((double) (i - from) + 0.5) / n - 1, v = p->value[i] / n;
 
-        if (pass)
-          misfit += pow (v - c[0] - c[1] * t - c[2] * u, 2);
-        else
-          {
-            c[0] += v / n;
-            c[1] += 3 * t * v / n;
-            c[2] += 5 * u * v / n;
-          }
-      }
+      c[0] += v;
+      c[1] += 3 * t * v;
+      c[2] += 5 * (1.5 * t * t - 0.5) * v;
+    }
+  for (size_t i = from; i < to; i++)
+    {
+      double t = 2 * ((double) (i - from) + 0.5) / n - 1;
+
+      misfit += pow (p->value[i] - c[0] - c[1] * t - c[2] * (1.5 * t * t - 0.5), 2);
+    }
   return misfit;
 }
 

@@ -275,12 +275,7 @@ divide_at_corners (CeldStrokeGraph *g)
   for (size_t k = 0; k < g->n_lines && status == CELD_OK; k++)
     if (celd_stroke_line_corner (g, k, &corner))
       {
-        size_t at = 0;
-
-        for (size_t i = 1; i < g->line[k].n; i++)
-          if (celd_points_apart (g->line[k].at[i], corner) < celd_points_apart (g->line[k].at[at], corner))
-            at = i;
-        status = divide (g, k, at);
+        status = divide (g, k, celd_stroke_line_nearest (&g->line[k], corner));
         k -= status == CELD_OK;
       }
   return status;

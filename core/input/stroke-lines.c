@@ -62,6 +62,17 @@ celd_line_sums_point (const CeldLineSums *sums, CeldPoint prior)
   return (CeldPoint) { (yy * x - sums->xy * y) / det, (xx * y - sums->xy * x) / det };
 }
 
+size_t
+celd_stroke_line_nearest (const CeldStrokeLine *line, CeldPoint place)
+{
+  size_t at = 0;
+
+  for (size_t i = 1; i < line->n; i++)
+    if (celd_points_apart (line->at[i], place) < celd_points_apart (line->at[at], place))
+      at = i;
+  return at;
+}
+
 /* The angle by which a line turns at its point i; 0 near its ends. */
 static double
 turn_at (const CeldStrokeLine *line, size_t i, size_t reach)
