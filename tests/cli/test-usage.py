@@ -330,7 +330,8 @@ class Usage(Test):
         before.add('temporary')
         with open(self.path('large.png'), 'rb') as file:
             process = subprocess.Popen([words[0], words[1], '-', *words[3:], '--progress'], cwd=self.folder, stdin=file,
-                                       stderr=subprocess.PIPE, env={**os.environ, 'TMPDIR': self.path('temporary')})
+                                       stderr=subprocess.PIPE, env={**os.environ, 'TMPDIR': self.path('temporary')},
+                                       preexec_fn=lambda: signal.signal(signal.SIGHUP, signal.SIG_DFL)) # under nohup
         os.read(process.stderr.fileno(), 1000)
         process.send_signal(signal.SIGHUP)
         self.assertEqual(process.wait(60), 1)
