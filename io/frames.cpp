@@ -9,22 +9,11 @@
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
-#include <OpenImageIO/strutil.h>
 
 #include <fstream>
 #include <memory>
 
 using OIIO::ImageSpec;
-
-static CeldIoFramesKind
-kind_of (const std::string &path)
-{
-  const std::string ending = std::filesystem::path (path).extension ().string ();
-
-  return ending.empty () ? CELD_IO_PNG_FRAMES :
-         OIIO::Strutil::iequals (ending, ".gif") ? CELD_IO_GIF :
-         OIIO::Strutil::iequals (ending, ".mpo") ? CELD_IO_MPO : CELD_IO_NO_FRAMES;
-}
 
 // ------------------------------------------------------------------ pixels
 
@@ -269,23 +258,13 @@ write_folder (const std::string &path, const CeldIoFrames &frames)
 
 // ------------------------------------------------------------------ the C functions
 
-CeldIoFramesKind
-celd_io_frames_kind (const char *path)
-{
-  CeldIoError      ignored;
-  CeldIoFramesKind kind = CELD_IO_NO_FRAMES;
-
-  guarded ("write", path, &ignored, [&] { kind = kind_of (path); });
-  return kind;
-}
-
 bool
 celd_io_write_frames (const char *path, const CeldIoFrames *frames, CeldIoError *error)
 {
   return guarded_write (path, error, [&] {
     if (!frames->frames)
       throw IoFailure ("there are no frames.");
-    switch (kind_of (path))
+    switch (celd_io_frames_kind (path))
       {
 #ifdef CELD_GIF
       case CELD_IO_GIF:        write_gif (path, *frames); break;

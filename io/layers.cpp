@@ -6,7 +6,6 @@
 #include "write-parts.hpp"
 
 #include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/strutil.h>
 
 #include <cctype>
 #include <cstdio>
@@ -14,17 +13,6 @@
 #include <memory>
 
 using OIIO::ImageSpec;
-
-static CeldIoStackKind
-kind_of (const std::string &path)
-{
-  const std::string ending = std::filesystem::path (path).extension ().string ();
-
-  return ending.empty () ? CELD_IO_FOLDER :
-         OIIO::Strutil::iequals (ending, ".ora") ? CELD_IO_OPEN_RASTER :
-         OIIO::Strutil::iequals (ending, ".psd") ? CELD_IO_PSD :
-         OIIO::Strutil::iequals (ending, ".exr") ? CELD_IO_EXR_PARTS : CELD_IO_NO_STACK;
-}
 
 // ------------------------------------------------------------------ pixels
 
@@ -170,21 +158,11 @@ write_folder (const std::string &path, const CeldIoStack &stack)
 
 // ------------------------------------------------------------------ the C functions
 
-CeldIoStackKind
-celd_io_stack_kind (const char *path)
-{
-  CeldIoError     ignored;
-  CeldIoStackKind kind = CELD_IO_NO_STACK;
-
-  guarded ("write", path, &ignored, [&] { kind = kind_of (path); });
-  return kind;
-}
-
 bool
 celd_io_write_layers (const char *path, const CeldIoStack *stack, CeldIoError *error)
 {
   return guarded_write (path, error, [&] {
-    switch (kind_of (path))
+    switch (celd_io_stack_kind (path))
       {
       case CELD_IO_OPEN_RASTER: write_open_raster (path, *stack); break;
 #ifdef CELD_PSD

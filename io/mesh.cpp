@@ -3,22 +3,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "mesh.hpp"
 
-#include <OpenImageIO/strutil.h>
-
-static CeldIoMeshKind
-kind_of (const std::string &path)
-{
-  const std::string ending = std::filesystem::path (path).extension ().string ();
-
-  if (OIIO::Strutil::iequals (ending, ".glb"))
-    return CELD_IO_GLB;
-  if (OIIO::Strutil::iequals (ending, ".obj"))
-    return CELD_IO_OBJ;
-  if (OIIO::Strutil::iequals (ending, ".ply"))
-    return CELD_IO_PLY;
-  return OIIO::Strutil::iequals (ending, ".stl") ? CELD_IO_STL : CELD_IO_NO_MESH;
-}
-
 Bytes
 encode_texture (const CeldColours &art)
 {
@@ -59,7 +43,7 @@ count_triangles (const Meshes &meshes)
 static void
 write_meshes (const std::string &path, const Meshes &meshes, const CeldColours *art)
 {
-  switch (kind_of (path))
+  switch (celd_io_mesh_kind (path.c_str ()))
     {
     case CELD_IO_GLB:
       return write_gltf (path, meshes, art);
@@ -77,16 +61,6 @@ write_meshes (const std::string &path, const Meshes &meshes, const CeldColours *
 
 // ------------------------------------------------------------------ the C functions
 
-CeldIoMeshKind
-celd_io_mesh_kind (const char *path)
-{
-  CeldIoError    ignored;
-  CeldIoMeshKind kind = CELD_IO_NO_MESH;
-
-  guarded ("write", path, &ignored, [&] { kind = kind_of (path); });
-  return kind;
-}
-
 void
 celd_io_mesh_files (const char *path, void (*take) (void *host, const char *name), void *host)
 {
@@ -94,7 +68,7 @@ celd_io_mesh_files (const char *path, void (*take) (void *host, const char *name
 
   take (host, path);
   guarded ("write", path, &ignored, [&] {
-    if (kind_of (path) == CELD_IO_OBJ)
+    if (celd_io_mesh_kind (path) == CELD_IO_OBJ)
       for (const std::string &beside : files_beside_obj (path))
         take (host, beside.c_str ());
   });

@@ -1,6 +1,7 @@
 // Writes pictures in EXR, PNG and TIFF files.
 //
 // SPDX-License-Identifier: LGPL-3.0-or-later
+#include "file-kinds.h"
 #include "write-parts.hpp"
 
 #include <OpenImageIO/strutil.h>
@@ -8,7 +9,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <filesystem>
 
 using OIIO::ImageSpec;
 
@@ -18,39 +18,21 @@ constexpr float near_distance = 1, far_distance = 2;
 constexpr const char *convention =
   "Z = far - d (far - near) is the distance to the viewer; depth.V = d is 1 at near, 0 at far";
 
-// ------------------------------------------------------------------ formats
-
-enum class Format { none, exr, png, tiff };
-
-static Format
-format_of (const std::string &path)
-{
-  std::string ending = std::filesystem::path (path).extension ().string ();
-
-  if (OIIO::Strutil::iequals (ending, ".exr"))
-    return Format::exr;
-  if (OIIO::Strutil::iequals (ending, ".png"))
-    return Format::png;
-  if (OIIO::Strutil::iequals (ending, ".tif") || OIIO::Strutil::iequals (ending, ".tiff"))
-    return Format::tiff;
-  return Format::none;
-}
-
 static const char *
-format_name (Format format)
+format_name (CeldIoFormat format)
 {
-  return format == Format::exr ? "openexr" : format == Format::png ? "png" : "tiff";
+  return format == CELD_IO_EXR ? "openexr" : format == CELD_IO_PNG ? "png" : "tiff";
 }
 
 // ------------------------------------------------------------------ one part
 
 static ImageSpec
-make_spec (const CeldIoPicture &picture, Format format, const CeldIoNote *notes, size_t n_notes)
+make_spec (const CeldIoPicture &picture, CeldIoFormat format, const CeldIoNote *notes, size_t n_notes)
 {
   OIIO::TypeDesc sample = picture.sample == CELD_IO_8_BIT ? OIIO::TypeUInt8 :
                           picture.sample == CELD_IO_16_BIT ? OIIO::TypeUInt16 : OIIO::TypeFloat;
   ImageSpec      spec (picture.width, picture.height, picture.channels,
-                       format == Format::exr ? OIIO::TypeFloat : sample);
+                       format == CELD_IO_EXR ? OIIO::TypeFloat : sample);
 
   spec.channelnames.clear ();
   for (int i = 0; i < picture.channels; i++)
@@ -59,9 +41,9 @@ make_spec (const CeldIoPicture &picture, Format format, const CeldIoNote *notes,
   for (int i = 0; i < picture.channels; i++)
     if (spec.channelnames[size_t (i)] == "A")
       spec.alpha_channel = i;
-  if (format != Format::exr)
+  if (format != CELD_IO_EXR)
     spec.attribute ("oiio:UnassociatedAlpha", 1);
-  if (picture.srgb && format != Format::exr)
+  if (picture.srgb && format != CELD_IO_EXR)
     spec.attribute ("oiio:ColorSpace", "sRGB");
   if (picture.name)
     spec.attribute ("oiio:subimagename", picture.name);
@@ -70,7 +52,7 @@ make_spec (const CeldIoPicture &picture, Format format, const CeldIoNote *notes,
   for (size_t i = 0; i < n_notes; i++)
     if (notes[i].text)
       spec.attribute (notes[i].name, notes[i].text);
-    else if (format == Format::exr)
+    else if (format == CELD_IO_EXR)
       spec.attribute (notes[i].name, notes[i].number);
     else
       spec.attribute (notes[i].name, OIIO::Strutil::fmt::format ("{}", notes[i].number));
@@ -117,17 +99,17 @@ write_pixels (OIIO::ImageOutput &output, const CeldIoPicture &picture, int premu
 static void
 write_file (const std::string &path, const CeldIoPicture *parts, size_t n, const CeldIoNote *notes, size_t n_notes)
 {
-  const Format           format = format_of (path);
+  const CeldIoFormat     format = celd_io_format (path.c_str ());
   std::vector<ImageSpec> specs;
 
-  if (format == Format::none)
+  if (format == CELD_IO_NO_FORMAT)
     throw IoFailure ("its name must end in .exr, .png or .tif.");
-  if (n < 1 || (n > 1 && format != Format::exr))
+  if (n < 1 || (n > 1 && format != CELD_IO_EXR))
     throw IoFailure ("only EXR files can have several parts.");
   for (size_t i = 0; i < n; i++)
     specs.push_back (make_spec (parts[i], format, notes, n_notes));
   write_parts (path, format_name (format), specs, [&] (OIIO::ImageOutput &output, size_t i) {
-    write_pixels (output, parts[i], format == Format::exr ? specs[i].alpha_channel : -1);
+    write_pixels (output, parts[i], format == CELD_IO_EXR ? specs[i].alpha_channel : -1);
   });
 }
 
@@ -136,38 +118,38 @@ write_file (const std::string &path, const CeldIoPicture *parts, size_t n, const
 static void
 write_depth (const std::string &path, const CeldPlane &depth, float farthest, float nearest)
 {
-  const Format       format = format_of (path);
+  const CeldIoFormat format = celd_io_format (path.c_str ());
   const size_t       width = size_t (depth.width), n = width * size_t (depth.height);
-  std::vector<float> shown (format == Format::tiff ? 0 : n), distance (format == Format::exr ? n : 0);
+  std::vector<float> shown (format == CELD_IO_TIFF ? 0 : n), distance (format == CELD_IO_EXR ? n : 0);
 
   for (size_t i = 0; i < shown.size (); i++)
     {
       float value = depth.data[i / width * depth.stride + i % width];
 
       shown[i] = (value - farthest) / (nearest > farthest ? nearest - farthest : 1);
-      if (format == Format::exr)
+      if (format == CELD_IO_EXR)
         distance[i] = far_distance - shown[i] * (far_distance - near_distance);
     }
 
   const CeldIoChannel exr[] = { { "Z", distance.data (), 1, width }, { "depth.V", shown.data (), 1, width } };
-  const CeldIoChannel grey = { "Y", format == Format::tiff ? depth.data : shown.data (), 1,
-                               format == Format::tiff ? depth.stride : width };
+  const CeldIoChannel grey = { "Y", format == CELD_IO_TIFF ? depth.data : shown.data (), 1,
+                               format == CELD_IO_TIFF ? depth.stride : width };
   const CeldIoNote    notes[] = { { note_farthest, nullptr, farthest }, { note_nearest, nullptr, nearest },
                                   { "near", nullptr, near_distance }, { "far", nullptr, far_distance },
                                   { "celdepth:convention", convention, 0 } };
   CeldIoPicture       picture = { nullptr, depth.width, depth.height, CELD_IO_FLOAT, false, &grey, 1 };
 
-  if (format == Format::exr)
+  if (format == CELD_IO_EXR)
     picture.channel = exr, picture.channels = 2;
-  else if (format == Format::png)
+  else if (format == CELD_IO_PNG)
     picture.sample = CELD_IO_16_BIT;
-  write_file (path, &picture, 1, notes, format == Format::exr ? 5 : format == Format::png ? 2 : 0);
+  write_file (path, &picture, 1, notes, format == CELD_IO_EXR ? 5 : format == CELD_IO_PNG ? 2 : 0);
 }
 
 static void
 write_normals (const std::string &path, const CeldVectors &normals)
 {
-  const bool         exr = format_of (path) == Format::exr;
+  const bool         exr = celd_io_format (path.c_str ()) == CELD_IO_EXR;
   const size_t       row = 3 * size_t (normals.width);
   std::vector<float> packed (exr ? 0 : row * size_t (normals.height));
   const float       *data = exr ? normals.data : packed.data ();
@@ -199,7 +181,7 @@ encode_srgb (float v)
 static void
 write_paint (const std::string &path, const CeldPaint &paint)
 {
-  const bool         exr = format_of (path) == Format::exr;
+  const bool         exr = celd_io_format (path.c_str ()) == CELD_IO_EXR;
   const size_t       row = 4 * size_t (paint.width);
   std::vector<float> colours (row * size_t (paint.height));
   float              table[2][256];
@@ -222,7 +204,7 @@ write_paint (const std::string &path, const CeldPaint &paint)
 static void
 write_colours (const std::string &path, const CeldColours &colours)
 {
-  const bool         png = format_of (path) == Format::png;
+  const bool         png = celd_io_format (path.c_str ()) == CELD_IO_PNG;
   const size_t       row = 4 * size_t (colours.width);
   std::vector<float> encoded (png ? row * size_t (colours.height) : 0);
   const float       *data = png ? encoded.data () : colours.data;
@@ -246,7 +228,7 @@ write_colours (const std::string &path, const CeldColours &colours)
 static void
 write_light (const std::string &path, const CeldPlane &light)
 {
-  const bool         png = format_of (path) == Format::png;
+  const bool         png = celd_io_format (path.c_str ()) == CELD_IO_PNG;
   const size_t       width = size_t (light.width);
   std::vector<float> encoded (png ? width * size_t (light.height) : 0);
 
@@ -263,7 +245,7 @@ write_light (const std::string &path, const CeldPlane &light)
 static void
 write_heights (const std::string &path, const CeldPlane &heights)
 {
-  const bool         png = format_of (path) == Format::png;
+  const bool         png = celd_io_format (path.c_str ()) == CELD_IO_PNG;
   const size_t       width = size_t (heights.width), n = width * size_t (heights.height);
   std::vector<float> shown (png ? n : 0);
   float              low = heights.data[0], high = low;
@@ -288,15 +270,6 @@ write_heights (const std::string &path, const CeldPlane &heights)
 }
 
 // ------------------------------------------------------------------ the C functions
-
-bool
-celd_io_can_write (const char *path)
-{
-  CeldIoError ignored;
-  bool        can = false;
-
-  return guarded ("write", path, &ignored, [&] { can = format_of (path) != Format::none; }) && can;
-}
 
 bool
 celd_io_write (const char *path, const CeldIoPicture *parts, size_t n_parts, const CeldIoNote *notes, size_t n_notes,

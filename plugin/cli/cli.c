@@ -2,6 +2,7 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
+#include "on-demand.h"
 #include "pages.h"
 #include "sequence.h"
 
@@ -64,6 +65,21 @@ refuse (const char *word)
   return CLI_USAGE;
 }
 
+/* What reads and writes files is loaded only now, because it takes long. */
+static int
+run_with_files (const CliCommand *command, const CliOptions *options)
+{
+  CeldIoError error;
+
+  if (!celd_io_load (&error))
+    {
+      cli_say ("%s", error.text);
+      return CLI_FAILED;
+    }
+  celd_io_fork_reader (); /* while there is one thread */
+  return options->clip ? cli_clip_run (command, options) : command->run (options);
+}
+
 static int
 run_command (const CliCommand *command, int argc, char **argv)
 {
@@ -75,7 +91,7 @@ run_command (const CliCommand *command, int argc, char **argv)
   code = cli_options_parse (command, argc, argv, &options);
   setlocale (LC_MESSAGES, ""); /* What is wrong with options is said in English, as help is. */
   if (code == CLI_DONE && !options.help)
-    code = options.clip ? cli_clip_run (command, &options) : command->run (&options);
+    code = run_with_files (command, &options);
   if ((code == CLI_DONE || code == CLI_CONTRADICTED) && !cli_streams_write (&options.streams))
     code = CLI_FAILED;
   cli_options_clear (&options);
@@ -114,10 +130,7 @@ run_words (int argc, char **argv)
       return CLI_DONE;
     }
   if (find_command (word))
-    {
-      celd_io_fork_reader (); /* while there is one thread */
-      return run_command (find_command (word), argc - 1, argv + 1);
-    }
+    return run_command (find_command (word), argc - 1, argv + 1);
   return refuse (word);
 }
 

@@ -6,6 +6,7 @@ SPDX-License-Identifier: LGPL-3.0-or-later
 import os
 import pty
 import re
+import shutil
 import signal
 import subprocess
 import unittest
@@ -338,6 +339,33 @@ class Usage(Test):
         process.stderr.close()
         self.assertEqual(set(os.listdir(self.folder)), before)
         self.assertEqual(os.listdir(self.path('temporary')), [])
+
+    def test_module_for_files(self):
+        """It is loaded by need, since OpenImageIO takes a third of a second; found beside the command, also through a
+        link by its name alone; without it only files fail, and options are still answered."""
+        needed = subprocess.run(['ldd', COMMAND], check=True, capture_output=True, text=True).stdout
+        self.assertIn('libglib', needed)
+        self.assertNotIn('OpenImageIO', needed)
+        words = ['popup', 'drawing.png', '--scribbles', 'scribbles.png', '--relations', RELATIONS,
+                 '--depth', 'depth.png']
+        os.mkdir(self.path('bin'))
+        os.symlink(os.path.abspath(COMMAND), self.path('bin/celdepth'))
+        subprocess.run(['celdepth', *words], cwd=self.folder, check=True,
+                       env={**os.environ, 'PATH': f'{self.path("bin")}:{os.environ["PATH"]}'})
+        os.remove(self.path('depth.png'))
+        os.remove(self.path('bin/celdepth'))
+        copy = shutil.copy(COMMAND, self.path('bin'))
+        with open(self.path('bin/celdepth-io.module'), 'w', encoding='utf-8') as module:
+            module.write('not a module')
+        library = os.path.join(os.path.dirname(os.path.abspath(COMMAND)), '../../core')
+        for words, code, naming in ((words, 1, 'Files can be neither read nor written'),
+                                    (['popup', 'drawing.png', '--nonsense'], 2, '--nonsense'),
+                                    (['popup', '--help'], 0, 'Usage')):
+            result = subprocess.run([copy, *words], cwd=self.folder, capture_output=True, text=True, check=False,
+                                    env={**os.environ, 'LD_LIBRARY_PATH': library})
+            self.assertEqual(result.returncode, code, result.stderr)
+            self.assertIn(naming, result.stdout + result.stderr)
+        self.assertFalse(os.path.exists(self.path('depth.png')))
 
     def test_quiet(self):
         self.assertEqual(self.popup('--relations', RELATIONS, '--depth', 'depth.png', '--quiet'), '')
