@@ -7,7 +7,7 @@
 #   chroot_commit NAME                 the last commit into its /celdepth
 #   chroot_run NAME COMMAND...         runs a command in it
 #
-# Every command gets a mount and process space of its own: nothing stays mounted or running, however it ends.  The
+# Every command gets a mount, process and IPC space of its own: nothing stays mounted or running, however it ends.  The
 # mirror and the proxy are those of this machine's own apt.  $CELDEPTH_CHROOT says where the systems are kept.
 #
 # SPDX-License-Identifier: LGPL-3.0-or-later
@@ -69,7 +69,7 @@ chroot_run ()
 {
   local root=$chroot_home/$1
   shift
-  unshare --mount --pid --fork --kill-child --mount-proc="$root/proc" sh -c '
+  unshare --mount --pid --ipc --fork --kill-child --mount-proc="$root/proc" sh -c '
     root=$1
     shift
     mount --rbind /dev "$root/dev" && mount -t tmpfs -o mode=1777 tmpfs "$root/tmp" &&
