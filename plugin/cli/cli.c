@@ -2,6 +2,7 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
+#include "huge-pages.h"
 #include "on-demand.h"
 #include "pages.h"
 #include "sequence.h"
@@ -10,9 +11,6 @@
 #include <fcntl.h>
 #include <glib/gi18n.h>
 #include <locale.h>
-#ifdef __GLIBC__
-#include <malloc.h>
-#endif
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -150,11 +148,7 @@ main (int argc, char **argv)
   int code;
 
   open_standard_files ();
-#ifdef __GLIBC__
-  /* Returns pictures to the system when they are freed.  Otherwise glibc raises this threshold and keeps large blocks:
-   * up to 50 bytes per pixel more (measured). */
-  mallopt (M_MMAP_THRESHOLD, 1 << 20);
-#endif
+  cli_use_huge_pages (argv);
   /* The locale is for file names and messages only; numbers have a decimal point in any locale. */
   setlocale (LC_CTYPE, "");
   bindtextdomain ("celdepth", CELD_LOCALE_FOLDER);

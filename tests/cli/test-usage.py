@@ -9,6 +9,7 @@ import re
 import shutil
 import signal
 import subprocess
+import time
 import unittest
 
 import numpy as np
@@ -366,6 +367,25 @@ class Usage(Test):
             self.assertEqual(result.returncode, code, result.stderr)
             self.assertIn(naming, result.stdout + result.stderr)
         self.assertFalse(os.path.exists(self.path('depth.png')))
+
+    def test_huge_pages(self):
+        """The setting of glibc that asks for them is added to what the user set, and kept if the user set it."""
+        words = ['popup', '-', '--scribbles', 'scribbles.png', '--relations', RELATIONS, '--depth', 'depth.png']
+        wanted, unwanted, other = 'glibc.malloc.hugetlb=1', 'glibc.malloc.hugetlb=0', 'glibc.malloc.perturb=1'
+        for given, used in (('', wanted), (other, f'{other}:{wanted}'), (unwanted, unwanted)):
+            process = subprocess.Popen([COMMAND, *words], cwd=self.folder, stdin=subprocess.PIPE, stderr=subprocess.PIPE,
+                                       env={**os.environ, 'GLIBC_TUNABLES': given})
+            for _ in range(100):
+                with open(f'/proc/{process.pid}/environ', encoding='utf-8') as file:
+                    settings = file.read().replace('\0', ':')  # glibc ends each setting where it stands
+                if f'GLIBC_TUNABLES={used}:' in settings:
+                    break
+                time.sleep(0.1)
+            with open(self.path('drawing.png'), 'rb') as file:
+                messages = process.communicate(file.read(), timeout=100)[1]
+            with self.subTest(given):
+                self.assertIn(f'GLIBC_TUNABLES={used}:', settings)
+                self.assertEqual((process.returncode, messages), (0, b''))
 
     def test_quiet(self):
         self.assertEqual(self.popup('--relations', RELATIONS, '--depth', 'depth.png', '--quiet'), '')
