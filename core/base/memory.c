@@ -2,16 +2,47 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
+#ifdef __linux__
+#define _DEFAULT_SOURCE /* madvise */
+#endif
+
 #include "base/base.h"
 
 #include <stdlib.h>
+
+#ifdef __linux__
+#include <sys/mman.h>
+
+#define HUGE_PAGE ((uintptr_t) 2 << 20) /* bytes, of x86 and most ARM systems; on others it has less effect, or none */
+
+/* Lets Linux use huge pages in a large block: each of the small ones costs a page fault when it is first used, an eighth
+ * of the time of a pop-up of several megapixels in GEGL (measured).  Only those that are within the block, so that no
+ * more memory is used than was asked for. */
+static void *
+advise_huge_pages (void *block, size_t bytes)
+{
+  uintptr_t first = ((uintptr_t) block + HUGE_PAGE - 1) & ~(HUGE_PAGE - 1);
+  uintptr_t end   = ((uintptr_t) block + bytes) & ~(HUGE_PAGE - 1);
+
+  if (block && first < end)
+    (void) madvise ((void *) first, end - first, MADV_HUGEPAGE);
+  return block;
+}
+#else
+static void *
+advise_huge_pages (void *block, size_t bytes)
+{
+  (void) bytes;
+  return block;
+}
+#endif
 
 void *
 celd_alloc (size_t count, size_t size)
 {
   if (size && count > SIZE_MAX / size)
     return NULL;
-  return malloc (count && size ? count * size : 1);
+  return advise_huge_pages (malloc (count && size ? count * size : 1), count * size);
 }
 
 void *
@@ -19,7 +50,7 @@ celd_alloc0 (size_t count, size_t size)
 {
   if (size && count > SIZE_MAX / size)
     return NULL;
-  return calloc (count ? count : 1, size ? size : 1);
+  return advise_huge_pages (calloc (count ? count : 1, size ? size : 1), count * size);
 }
 
 bool
