@@ -4,14 +4,12 @@
  */
 #ifdef __linux__
 #define _DEFAULT_SOURCE /* madvise */
+#include <sys/mman.h>
 #endif
 
 #include "base/base.h"
 
 #include <stdlib.h>
-
-#ifdef __linux__
-#include <sys/mman.h>
 
 #define HUGE_PAGE ((uintptr_t) 2 << 20) /* bytes, of x86 and most ARM systems; on others it has less effect, or none */
 
@@ -24,18 +22,15 @@ advise_huge_pages (void *block, size_t bytes)
   uintptr_t first = ((uintptr_t) block + HUGE_PAGE - 1) & ~(HUGE_PAGE - 1);
   uintptr_t end   = ((uintptr_t) block + bytes) & ~(HUGE_PAGE - 1);
 
+#ifdef MADV_HUGEPAGE
   if (block && first < end)
     (void) madvise ((void *) first, end - first, MADV_HUGEPAGE);
-  return block;
-}
 #else
-static void *
-advise_huge_pages (void *block, size_t bytes)
-{
-  (void) bytes;
+  (void) first;
+  (void) end;
+#endif
   return block;
 }
-#endif
 
 void *
 celd_alloc (size_t count, size_t size)
