@@ -68,60 +68,74 @@ measure (const CeldArrowStroke *stroke, const CeldArrowLayer *layer, CeldArrowSt
     }
 }
 
-typedef struct { double red, green, blue, opacity; } Colour;
-
-/* Mean colour of a stroke between two distances, weighted by opacity; in a layer without alpha, its difference from the
- * paper. */
-static Colour
-colour_between (const CeldArrowStroke *stroke, const CeldArrowLayer *layer, double from, double to)
+void
+celd_paint_colour_add (CeldPaintColour *sum, const CeldArrowLayer *layer, int x, int y)
 {
-  Colour c = { 0, 0, 0, 0 };
-  double weights = 0;
+  const uint8_t *p = CELD_RGBA (layer->paint, x, y);
+  double         a = celd_arrow_opacity (layer, x, y);
 
-  for (size_t i = 0; i < stroke->n; i++)
-    {
-      int            x = celd_stroke_x (stroke, stroke->pixel[i]), y = celd_stroke_y (stroke, stroke->pixel[i]);
-      const uint8_t *p = CELD_RGBA (layer->paint, x, y);
-      double         a = celd_arrow_opacity (layer, x, y);
-
-      if (stroke->distance[stroke->pixel[i]] < from || stroke->distance[stroke->pixel[i]] > to)
-        continue;
-      c.red     += a * (p[0] - layer->paper[0]);
-      c.green   += a * (p[1] - layer->paper[1]);
-      c.blue    += a * (p[2] - layer->paper[2]);
-      c.opacity += a * a;
-      weights   += a;
-    }
-  return weights > 0 ? (Colour) { c.red / weights, c.green / weights, c.blue / weights, c.opacity / weights } : c;
+  sum->red     += a * (p[0] - layer->paper[0]);
+  sum->green   += a * (p[1] - layer->paper[1]);
+  sum->blue    += a * (p[2] - layer->paper[2]);
+  sum->opacity += a * a;
+  sum->weights += a;
 }
 
-static bool
-same_colour (const CeldArrowLayer *layer, Colour a, Colour b)
+static CeldPaintColour
+mean_colour (CeldPaintColour sum)
 {
-  double dot = a.red * b.red + a.green * b.green + a.blue * b.blue;
-  double length = sqrt ((a.red * a.red + a.green * a.green + a.blue * a.blue) *
-                        (b.red * b.red + b.green * b.green + b.blue * b.blue));
+  double n = sum.weights > 0 ? sum.weights : 1;
+
+  return (CeldPaintColour) { sum.red / n, sum.green / n, sum.blue / n, sum.opacity / n, 1 };
+}
+
+bool
+celd_paint_colour_known (CeldPaintColour sum)
+{
+  return mean_colour (sum).opacity >= COLOUR_OPACITY;
+}
+
+bool
+celd_same_paint (const CeldArrowLayer *layer, CeldPaintColour one, CeldPaintColour other)
+{
+  CeldPaintColour a = mean_colour (one), b = mean_colour (other);
+  double          dot = a.red * b.red + a.green * b.green + a.blue * b.blue;
+  double          length = sqrt ((a.red * a.red + a.green * a.green + a.blue * a.blue) *
+                                 (b.red * b.red + b.green * b.green + b.blue * b.blue));
 
   if (layer->opaque)
     return dot >= OTHER_COSINE * length;
   return hypot (hypot (a.red - b.red, a.green - b.green), a.blue - b.blue) <= OTHER_COLOUR;
 }
 
+/* The colour of a stroke between two distances. */
+static CeldPaintColour
+colour_between (const CeldArrowStroke *stroke, const CeldArrowLayer *layer, double from, double to)
+{
+  CeldPaintColour sum = { 0 };
+
+  for (size_t i = 0; i < stroke->n; i++)
+    if (stroke->distance[stroke->pixel[i]] >= from && stroke->distance[stroke->pixel[i]] <= to)
+      celd_paint_colour_add (&sum, layer, celd_stroke_x (stroke, stroke->pixel[i]),
+                             celd_stroke_y (stroke, stroke->pixel[i]));
+  return sum;
+}
+
 /* A single piece of another colour may be where another stroke crosses. */
 bool
 celd_stroke_changes_colour (const CeldArrowStroke *stroke, const CeldArrowLayer *layer)
 {
-  double piece = celd_stroke_length (stroke) / MOST_PIECES;
-  Colour colour[MOST_PIECES];
-  int    n = 0;
+  double          piece = celd_stroke_length (stroke) / MOST_PIECES;
+  CeldPaintColour colour[MOST_PIECES];
+  int             n = 0;
 
   for (int i = 0; i < MOST_PIECES; i++)
     {
       colour[n] = colour_between (stroke, layer, i * piece, (i + 1) * piece);
-      n += colour[n].opacity >= COLOUR_OPACITY;
+      n += celd_paint_colour_known (colour[n]);
     }
-  return n >= 4 && !same_colour (layer, colour[0], colour[n - 1]) && !same_colour (layer, colour[0], colour[n - 2]) &&
-         !same_colour (layer, colour[1], colour[n - 1]) && !same_colour (layer, colour[1], colour[n - 2]);
+  return n >= 4 && !celd_same_paint (layer, colour[0], colour[n - 1]) && !celd_same_paint (layer, colour[0], colour[n - 2]) &&
+         !celd_same_paint (layer, colour[1], colour[n - 1]) && !celd_same_paint (layer, colour[1], colour[n - 2]);
 }
 
 /* Does more of a stroke than its ends lie on the edge of the picture? */

@@ -25,10 +25,18 @@ explain_hidden (const CeldJoinedLines *s)
     memset (s->explained, 0, n);
 }
 
+/* Row by row: discs along a broad line are many and large. */
 static void
 explain_disc (const CeldJoinedLines *s, CeldPoint c, double r)
 {
-  celd_joined_fill_disc (s, c, r, 1, s->explained);
+  for (int y = (int) fmax (0, ceil (c.y - r - 0.5)); y + 0.5 <= c.y + r && y < s->mask.height; y++)
+    {
+      double half = sqrt (fmax (0, r * r - (y + 0.5 - c.y) * (y + 0.5 - c.y)));
+      int    left = (int) fmax (0, ceil (c.x - half - 0.5)), end = (int) fmin (s->mask.width, floor (c.x + half + 0.5));
+
+      if (left < end)
+        memset (s->explained + (size_t) y * (size_t) s->mask.width + left, 1, (size_t) (end - left));
+    }
 }
 
 /* Marks the paint of a straight line as explained. */
@@ -56,17 +64,32 @@ celd_joined_explain_lines (const CeldJoinedLines *s)
     }
 }
 
+static void
+explain_wide_disc (const CeldJoinedLines *s, CeldPoint c)
+{
+  if (celd_joined_inside (s, c))
+    explain_disc (s, c, sqrt (s->mask.squared[celd_joined_pixel (s, c)]) + EDGE_MORE);
+}
+
+/* Marks paint between a line and the place where it meets others. */
+static void
+explain_led (const CeldJoinedLines *s, CeldPoint from, CeldPoint place)
+{
+  double n = ceil (celd_points_apart (from, place) + 1);
+
+  for (double i = 0; i <= n; i++)
+    explain_wide_disc (s, (CeldPoint) { from.x + (place.x - from.x) * i / n, from.y + (place.y - from.y) * i / n });
+}
+
 void
 celd_joined_explain_wide_lines (const CeldJoinedLines *s)
 {
   explain_hidden (s);
   for (size_t k = 0; k < s->graph.n_lines; k++)
     for (size_t i = 0; i < s->graph.line[k].n; i++)
-      {
-        CeldPoint c = s->graph.line[k].at[i];
-
-        explain_disc (s, c, sqrt (s->mask.squared[celd_joined_pixel (s, c)]) + EDGE_MORE);
-      }
+      explain_wide_disc (s, s->graph.line[k].at[i]);
+  for (size_t i = 0; i < 2 * s->graph.n_lines; i++)
+    explain_led (s, celd_joined_point (s, i, 0), celd_joined_meeting_point (s, celd_joined_node (s, i)));
 }
 
 int

@@ -24,10 +24,15 @@
  *   stroke-graph.c       the long lines of paint
  *   joined-lines.c       where the long lines of several arrows meet
  *   explained-paint.c    the paint of lines that meet, and of their heads and dots
- *   joined-marks.c       heads and dots where lines meet
- *   free-ends.c          heads and dots at ends of lines that meet no other
+ *   head-fits.c          what heads and dots at the ends of lines cost
+ *   head-choice.c        which of them cost least in all
  *   joined-heads.c       which end of each of several lines that meet has its head or dot
- *   joined-profiles.c    which way each of several lines that meet fades or tapers
+ *   line-values.c        the opacity or width of a line along its points
+ *   monotone-pieces.c    values that only fall or rise, and pieces of others that do
+ *   line-profiles.c      which way a line fades or tapers, and where two arrows meet in it
+ *   joined-passes.c      where arrows that fade or taper go on from line to line
+ *   joined-places.c      where the ends of such lines are
+ *   joined-profiles.c    the arrows of lines that fade or taper
  *   joined-arrows.c      arrows of one colour that share ends
  *   arrow-colours.c      the paint of each colour of a component
  *   hidden-ends.c        where arrows end whose ends are hidden below others
@@ -319,6 +324,16 @@ typedef struct { CeldPoint tail, tip; } CeldArrowEnds;
 /* False if the stroke has no clear arrowhead; with `dot`, no clear dot, whose centre is then the tip. */
 bool celd_arrowhead (CeldArrowStroke *stroke, bool dot, CeldArrowEnds *ends);
 
+/* Sums over some paint, weighted by opacity, for its mean colour; in a layer without alpha, that less the colour of the
+ * paper.  To begin with, all are 0. */
+typedef struct { double red, green, blue, opacity, weights; } CeldPaintColour;
+
+void celd_paint_colour_add (CeldPaintColour *sum, const CeldArrowLayer *layer, int x, int y);
+
+/* Is paint opaque enough for its colour to be known?  May both be of one stroke? */
+bool celd_paint_colour_known (CeldPaintColour sum);
+bool celd_same_paint (const CeldArrowLayer *layer, CeldPaintColour one, CeldPaintColour other);
+
 /* Do the first two pieces of sufficient opacity of a stroke that is followed from an end differ in colour from the last
  * two? */
 bool celd_stroke_changes_colour (const CeldArrowStroke *stroke, const CeldArrowLayer *layer);
@@ -327,11 +342,6 @@ bool celd_stroke_changes_colour (const CeldArrowStroke *stroke, const CeldArrowL
  * clearly is. */
 bool celd_arrow_profile (CeldArrowStroke *stroke, const CeldArrowLayer *layer, CeldArrowStyle style,
                          CeldArrowEnds *ends);
-
-/* The distance at which the opacity or width of a stroke that is followed from an end jumps or turns, because two
- * arrows meet there; 0: there is none.  width: of the stroke. */
-CeldStatus celd_stroke_turn_find (const CeldArrowStroke *stroke, const CeldArrowLayer *layer, CeldArrowStyle style,
-                                  double width, double *distance);
 
 /* ------------------------------------------------------------------ crossings.c */
 
@@ -397,7 +407,7 @@ typedef struct { CeldPoint *at; size_t n, capacity; int node[2]; } CeldStrokeLin
 typedef struct { double xx, xy, yy, x, y; } CeldLineSums;
 
 /* Where lines end or meet, and the short branches that were there. */
-typedef struct { CeldPoint at; bool branched; CeldLineSums branches; } CeldStrokeNode;
+typedef struct { CeldPoint at; bool branched, tip, vague; CeldLineSums branches; } CeldStrokeNode;
 
 typedef struct
 {
@@ -421,6 +431,9 @@ CeldStatus celd_stroke_line_append (CeldStrokeLine *line, CeldPoint p);
 
 /* Joins the two lines of a node, if it has two, into one. */
 CeldStatus celd_stroke_graph_join (CeldStrokeGraph *graph, int node);
+
+/* Divides a line at one of its points, which becomes a node. */
+CeldStatus celd_stroke_graph_divide (CeldStrokeGraph *graph, size_t line, size_t at);
 
 double celd_stroke_line_length (const CeldStrokeLine *line);
 

@@ -10,69 +10,12 @@
 
 #include <math.h>
 
-#define STRAIGHT   0.5 /* radians by which an arrow may turn where it passes others; chosen */
 #define MOST_LINES 100 /* of connected paint; more are a drawing, or hatching; chosen */
 
 static bool
 is_long (const CeldJoinedLines *s, size_t line)
 {
   return celd_stroke_line_length (&s->graph.line[line]) >= CELD_LEAST_LINE * s->graph.width;
-}
-
-/* Do two lines that meet at these ends go straight on? */
-static bool
-go_straight_on (const CeldJoinedLines *s, size_t a, size_t b)
-{
-  return celd_joined_node (s, a) == celd_joined_node (s, b) && celd_joined_turn (s, a, b) < STRAIGHT;
-}
-
-/* May a line be part of an arrow that passes at one of its ends? */
-static bool
-may_pass (const CeldJoinedLines *s, const CeldLineArrows *arrows, size_t k)
-{
-  for (size_t a = 2 * k; a < 2 * k + 2; a++)
-    for (size_t b = 0; b < 2 * s->graph.n_lines; b++)
-      if (b / 2 != k && is_long (s, b / 2) && go_straight_on (s, a, b))
-        {
-          int here = arrows[k].role[a % 2], there = arrows[b / 2].role[b % 2];
-
-          if (!there || here != there)
-            return true;
-        }
-  return false;
-}
-
-/* Is a line that meets another one at its ends unclear? */
-static bool
-meets_unclear (const CeldJoinedLines *s, const CeldLineArrows *arrows, size_t k)
-{
-  for (size_t a = 2 * k; a < 2 * k + 2; a++)
-    for (size_t b = 0; b < 2 * s->graph.n_lines; b++)
-      if (celd_joined_node (s, a) == celd_joined_node (s, b) && !arrows[b / 2].role[b % 2])
-        return true;
-  return false;
-}
-
-/* Removes the arrows of lines that may be parts of others, or that meet lines that are unclear. */
-static void
-remove_passing (const CeldJoinedLines *s, CeldLineArrows *arrows)
-{
-  for (size_t k = 0; k < s->graph.n_lines; k++) /* roles stay, so that these do not make others unclear */
-    if (meets_unclear (s, arrows, k))
-      arrows[k].n = 0;
-  for (size_t k = 0; k < s->graph.n_lines; k++)
-    if (!arrows[k].n)
-      arrows[k] = (CeldLineArrows) { .n = 0 };
-  for (bool again = true; again;)
-    {
-      again = false;
-      for (size_t k = 0; k < s->graph.n_lines; k++)
-        if (arrows[k].n && may_pass (s, arrows, k))
-          {
-            arrows[k] = (CeldLineArrows) { .n = 0 };
-            again     = true;
-          }
-    }
 }
 
 /* A point of the mask as one of the picture: where lines are led on to meet may lie somewhat outside. */
@@ -83,24 +26,24 @@ in_picture (const CeldJoinedLines *s, CeldPoint p)
                        fmin (fmax (p.y + s->mask.top, 0.5), s->stroke->height - 0.5) };
 }
 
-/* Appends the arrows of a line, or a problem in its middle. */
+/* Appends the arrow of a line, or a problem in its middle. */
 static CeldStatus
-add_line (const CeldJoinedLines *s, size_t k, const CeldLineArrows *arrows, bool crack, CeldRelations *relations,
+add_line (const CeldJoinedLines *s, size_t k, const CeldLineArrow *arrow, bool crack, CeldRelations *relations,
           CeldProblems *problems)
 {
   CeldPoint  middle = s->graph.line[k].at[s->graph.line[k].n / 2];
   CeldStatus status = CELD_OK;
 
-  for (int i = 0; i < arrows->n && status == CELD_OK; i++)
+  if (arrow->clear)
     {
-      CeldPoint nearer = in_picture (s, arrows->nearer[i]), farther = in_picture (s, arrows->farther[i]);
+      CeldPoint nearer = in_picture (s, arrow->nearer), farther = in_picture (s, arrow->farther);
 
       status = celd_relation_add (relations, (CeldRelation) {
         .nearer = { .x = nearer.x, .y = nearer.y }, .farther = { .x = farther.x, .y = farther.y },
         .crack  = crack, .weight = 1, .gap = 1, .source = CELD_SOURCE_ARROW,
       });
     }
-  if (!arrows->n)
+  else
     status = celd_problem_add (problems, (CeldProblem) {
       .kind = CELD_PROBLEM_ARROW_UNCLEAR, .relation = CELD_NO_INDEX,
       .x = (int) middle.x + s->mask.left, .y = (int) middle.y + s->mask.top,
@@ -110,12 +53,9 @@ add_line (const CeldJoinedLines *s, size_t k, const CeldLineArrows *arrows, bool
 
 /* Is an arrow of a line no longer than a head, of which it may be a barb if the rest is hidden? */
 static bool
-is_as_short_as_head (const CeldJoinedLines *s, const CeldLineArrows *arrows)
+is_as_short_as_head (const CeldJoinedLines *s, const CeldLineArrow *arrow)
 {
-  for (int i = 0; i < arrows->n; i++)
-    if (celd_points_apart (arrows->nearer[i], arrows->farther[i]) < CELD_HEAD_REACH * s->graph.width)
-      return true;
-  return false;
+  return arrow->clear && celd_points_apart (arrow->nearer, arrow->farther) < CELD_HEAD_REACH * s->graph.width;
 }
 
 /* Reads all lines.  *n: arrows; fewer than two are none, because a single stroke that is unclear stays so, unless some
@@ -125,17 +65,15 @@ read_lines (CeldJoinedLines *s, const CeldArrowLayer *layer, CeldRelations *rela
 {
   bool            crack = celd_arrow_is_blue (s->stroke, layer);
   bool            profiles = s->style == CELD_ARROW_FADE || s->style == CELD_ARROW_TAPER;
-  CeldLineArrows *arrows = celd_alloc0 (s->graph.n_lines, sizeof *arrows);
-  CeldStatus      status = !arrows ? CELD_NO_MEMORY : profiles ? celd_joined_profiles_read (s, layer, arrows)
-                                                               : celd_joined_heads_read (s, arrows);
+  CeldLineArrow *arrows;
+  CeldStatus     status = profiles ? celd_joined_profiles_read (s, layer, &arrows)
+                                    : celd_joined_heads_read (s, &arrows);
 
-  if (status == CELD_OK && profiles)
-    remove_passing (s, arrows);
   for (size_t k = 0; k < s->graph.n_lines && status == CELD_OK && s->hidden; k++)
     if (is_as_short_as_head (s, &arrows[k]))
-      arrows[k].n = 0;
+      arrows[k].clear = false;
   for (size_t k = 0; k < s->graph.n_lines && status == CELD_OK; k++)
-    *n += is_long (s, k) ? arrows[k].n : 0;
+    *n += is_long (s, k) && arrows[k].clear;
   if (*n == 1 && !s->hidden)
     *n = 0;
   for (size_t k = 0; k < s->graph.n_lines && status == CELD_OK && *n; k++)
@@ -182,10 +120,8 @@ celd_joined_arrows_read (CeldArrowStroke *stroke, const CeldStrokeCover *cover, 
 
   if (status == CELD_OK)
     status = celd_stroke_graph_new (&s.mask, style == CELD_ARROW_HEAD || style == CELD_ARROW_DOT, &s.graph);
-  if (status == CELD_OK && !(s.explained = celd_alloc (2 * (size_t) s.mask.width * (size_t) s.mask.height, 1)))
+  if (status == CELD_OK && !(s.explained = celd_alloc ((size_t) s.mask.width * (size_t) s.mask.height, 1)))
     status = CELD_NO_MEMORY;
-  if (status == CELD_OK)
-    s.may_take = s.explained + (size_t) s.mask.width * (size_t) s.mask.height;
   if (status == CELD_OK && cover)
     status = find_hidden (&s, cover);
   if (status == CELD_OK && s.graph.n_lines && s.graph.n_lines <= MOST_LINES)

@@ -11,7 +11,7 @@
 
 #define CELD_LEAST_LINE 5   /* widths of the paint: a shorter line is part of something else; chosen */
 #define CELD_MOST_APART 2.4 /* widths for which lines that meet may lie side by side; chosen: 30 degrees */
-#define CELD_MOST_MOVED 1.8 /* widths from a node to where its lines would meet, at most; chosen */
+#define CELD_MOST_SHARED 4.5 /* the same for lines that fade or taper; chosen: 15 degrees */
 #define CELD_HEAD_REACH 5.5 /* widths from the tip to the end of a barb, at most; chosen */
 #define CELD_LINE_BODY  0.6 /* widths from the middle of a line to the edge of its paint, and a pixel more; chosen */
 #define CELD_NODE_REACH 7   /* widths from a node up to which paint belongs to it; chosen */
@@ -26,13 +26,10 @@ typedef struct
   CeldStrokeGraph  graph;
   uint8_t         *hidden;    /* of each pixel of the mask: has it paint of other colours?  NULL: there are none */
   uint8_t         *explained; /* the same size: is it hidden, or does it belong to a line? */
-  uint8_t         *may_take;  /* the same size: may a piece have that pixel? */
 } CeldJoinedLines;
 
-/* The arrows of a line: none if it is unclear, or one, or two that meet at its corner.  part: the line belongs to the
- * arrow of another one.  role: of each end of a line that fades or tapers, 1 = an arrow ends there, -1 = one begins
- * there, 0 = not known. */
-typedef struct { CeldPoint nearer[2], farther[2]; int n, role[2]; bool part; } CeldLineArrows;
+/* The arrow of a line, if it is clear.  part: the line belongs to the arrow of another one. */
+typedef struct { CeldPoint nearer, farther; bool clear, part; } CeldLineArrow;
 
 /* ------------------------------------------------------------------ joined-lines.c */
 
@@ -59,8 +56,18 @@ CeldPoint celd_joined_meeting_point (const CeldJoinedLines *lines, int node);
 double celd_widths_apart (CeldPoint u, CeldPoint v);
 double celd_joined_widths_apart (const CeldJoinedLines *lines, size_t end);
 
-/* Is most of the way from each line of a node to a place painted? */
-bool celd_joined_is_led_to (const CeldJoinedLines *lines, int node, CeldPoint place);
+/* How many lines end at the node of an end. */
+size_t    celd_joined_lines_at (const CeldJoinedLines *lines, size_t end);
+
+/* Do all other lines at the node of an end, at least two, go on from it about straight?  Then they lie on each other
+ * along its line, and part there. */
+bool      celd_joined_part_from (const CeldJoinedLines *lines, size_t end);
+
+/* Is a place so near the frame of the picture that paint may go on beyond? */
+bool      celd_joined_is_at_frame (const CeldJoinedLines *lines, CeldPoint place);
+
+/* Is most of the way from the line of an end to a place painted? */
+bool celd_joined_is_led_to (const CeldJoinedLines *lines, size_t end, CeldPoint place);
 
 static inline int
 celd_joined_node (const CeldJoinedLines *lines, size_t end)
@@ -100,18 +107,120 @@ celd_moved (CeldPoint p, CeldPoint way, double distance)
   return (CeldPoint) { p.x + distance * way.x, p.y + distance * way.y };
 }
 
-/* ------------------------------------------------------------------ joined-pieces.c */
+/* ------------------------------------------------------------------ monotone-pieces.c */
 
-typedef struct { CeldArrowStroke stroke; uint32_t *pixel; size_t capacity; } CeldJoinedPiece;
+#define CELD_MOST_PIECES 6 /* into which values are divided; chosen */
 
-/* The paint that may be taken and is connected with a point, as a stroke of its own; it may not be taken again.  To be
- * released by the caller in any case. */
-CeldStatus celd_joined_take (const CeldJoinedLines *lines, CeldPoint start, CeldJoinedPiece *piece);
-void       celd_joined_release (CeldJoinedPiece *piece);
+/* The sum of squares between n values and the nearest ones that only rise, or only fall, whichever is less. */
+CeldStatus celd_monotone_error (const double *value, size_t n, bool *rises, double *error);
 
-/* Sets the pixels of a disc in `pixels`, which is `explained` or `may_take`. */
-void celd_joined_fill_disc (const CeldJoinedLines *lines, CeldPoint centre, double radius, uint8_t value,
-                            uint8_t *pixels);
+/* Where n values may be divided into two pieces of at least `part` values that each only rise or only fall: from
+ * range[0] to range[1] values before it, with an error at most `slack` more than the least one. */
+CeldStatus celd_monotone_range (const double *value, size_t n, size_t part, double slack, size_t range[2]);
+
+/* Divides n values into the fewest pieces, of at least `part` values that each only rise or only fall, with an error of
+ * at most `most`: piece i has the values from cut[i] up to cut[i + 1].  cut has room for CELD_MOST_PIECES + 1 of them.
+ * *n_pieces = 0: more would be needed. */
+CeldStatus celd_monotone_divide (const double *value, size_t n, size_t part, double most, size_t *cut,
+                                 size_t *n_pieces);
+
+/* ------------------------------------------------------------------ line-values.c */
+
+/* Values of the points of a line from `first` on, without those that say nothing. */
+typedef struct
+{
+  const CeldJoinedLines *lines;
+  const CeldStrokeLine  *line;
+  size_t                 first, n;
+  double                *value;
+} CeldLineValues;
+
+/* The opacity (0 to 255) or width of line k at its point i; NAN = others hide it. */
+double celd_line_value (const CeldJoinedLines *lines, const CeldArrowLayer *layer, size_t k, size_t i);
+
+/* The values of line k, of which `most` is 1: means of those around each point; where others hide the line, those
+ * before go on.  None if much is hidden.  value is the caller's to free in any case. */
+CeldStatus celd_line_values_new (const CeldJoinedLines *lines, const CeldArrowLayer *layer, size_t k, double most,
+                                 CeldLineValues *values);
+
+/* The colours of the first third of a line and of the last one. */
+void celd_line_colours (const CeldLineValues *values, const CeldArrowLayer *layer, CeldPaintColour colour[2]);
+
+/* A straight line, level + slope i, through the values from `from` up to, not with, `to`, by least squares. */
+void celd_line_values_fit (const CeldLineValues *values, size_t from, size_t to, double *level, double *slope);
+
+/* ------------------------------------------------------------------ line-profiles.c */
+
+#define CELD_MOST_TURNS (CELD_MOST_PIECES - 1)
+
+/* A point of a line where two arrows meet; vague: they may meet elsewhere. */
+typedef struct { size_t at; bool vague; } CeldLineTurn;
+
+/* How the opacity or width of a line changes.  known: there is enough of the line, and values only fall or only rise;
+ * value: at its ends, led on to their nodes; tail: the end that is nearer, -1 = they hardly change; colour: of a third
+ * of the line at each end; turn: where arrows meet in a line that is not known, in their order. */
+typedef struct
+{
+  bool            known;
+  double          value[2];
+  int             tail;
+  CeldPaintColour colour[2];
+  CeldLineTurn    turn[CELD_MOST_TURNS];
+  size_t          n_turns;
+} CeldLineProfile;
+
+/* most: the value that is 1 in the profile of line k. */
+CeldStatus celd_line_profile_find (const CeldJoinedLines *lines, const CeldArrowLayer *layer, size_t k, double most,
+                                   CeldLineProfile *profile);
+
+/* ------------------------------------------------------------------ joined-passes.c */
+
+#define CELD_NO_END     SIZE_MAX
+#define CELD_SAME_VALUE 0.12 /* between values of an arrow on both sides of a node, at most; chosen */
+
+/* Lines that fade or taper while they are read. */
+typedef struct
+{
+  CeldJoinedLines      *lines;
+  const CeldArrowLayer *layer;
+  double                most;    /* the value that is 1 in profiles */
+  CeldLineProfile      *profile; /* of each line */
+  bool                 *alone;   /* of each line: is no other paint beside it? */
+  size_t               *next;    /* of each end: the end of another line where its arrow goes on; CELD_NO_END = none */
+  bool                 *doubt;   /* of each end: is it unclear whether its arrow goes on? */
+} CeldProfileReading;
+
+static inline bool
+celd_is_tail (const CeldProfileReading *r, size_t end)
+{
+  return r->profile[end / 2].tail == (int) (end % 2);
+}
+
+static inline bool
+celd_is_tip (const CeldProfileReading *r, size_t end)
+{
+  return r->profile[end / 2].tail >= 0 && !celd_is_tail (r, end);
+}
+
+static inline double
+celd_value_at (const CeldProfileReading *r, size_t end)
+{
+  return r->profile[end / 2].value[end % 2];
+}
+
+/* Fills in next and doubt, whose profiles are known. */
+CeldStatus celd_joined_passes_find (CeldProfileReading *reading);
+
+/* Is an end straight on from one that is in doubt, and may be of the same arrow? */
+bool celd_joined_meets_doubt (const CeldProfileReading *reading, size_t end);
+
+/* ------------------------------------------------------------------ joined-places.c */
+
+/* Finds the place of an end; false if it is not clear. */
+bool celd_joined_place (const CeldJoinedLines *lines, size_t end, CeldPoint *place);
+
+/* Is more of a line at the frame of the picture than its end? */
+bool celd_joined_runs_along_frame (const CeldJoinedLines *lines, size_t line);
 
 /* ------------------------------------------------------------------ explained-paint.c */
 
@@ -132,8 +241,8 @@ double celd_joined_hidden_share (const CeldJoinedLines *lines, CeldPoint centre,
 
 /* ------------------------------------------------------------------ head-fits.c */
 
-/* The n ends at a node, and of each set of them (bit i: end i has a head or dot there) what that costs, in square widths
- * of paint, and where the node is then.  cost is NULL if nothing is known. */
+/* The n ends at a node, and of each set of them (bit i: end i has a head or dot there) what that costs, in square
+ * widths of paint, and where the node is then.  cost is NULL if nothing is known. */
 typedef struct { size_t end[CELD_MOST_MARKS]; int n; double *cost; CeldPoint *tip; } CeldNodeMarks;
 
 /* Finds costs and places, for which there is room, of the ends that are given.  The paint of all lines is explained
@@ -173,9 +282,10 @@ unsigned celd_head_choice_at (const CeldHeadChoice *choice, int node);
 
 /* ------------------------------------------------------------------ joined-heads.c, joined-profiles.c */
 
-/* The arrows of all lines, whose ends have heads or dots; or whose opacity or width changes.  Places are those of nodes
- * where lines meet. */
-CeldStatus celd_joined_heads_read (CeldJoinedLines *lines, CeldLineArrows *arrows);
-CeldStatus celd_joined_profiles_read (CeldJoinedLines *lines, const CeldArrowLayer *layer, CeldLineArrows *arrows);
+/* The arrows of all lines, whose ends have heads or dots; or whose opacity or width changes, for which lines are
+ * divided where two arrows meet.  *arrows is to be freed by the caller in any case.  Places are those of nodes where
+ * lines meet. */
+CeldStatus celd_joined_heads_read (CeldJoinedLines *lines, CeldLineArrow **arrows);
+CeldStatus celd_joined_profiles_read (CeldJoinedLines *lines, const CeldArrowLayer *layer, CeldLineArrow **arrows);
 
 #endif

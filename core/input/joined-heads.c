@@ -169,15 +169,6 @@ find_place (const CeldHeadChoice *s, size_t end, CeldPoint *place)
   return node->cost[set] <= MOST_REST && celd_joined_widths_apart (s->lines, end) <= CELD_MOST_APART;
 }
 
-/* Does the paint of a tip reach the frame of the picture?  Then a head or dot may lie beyond it. */
-static bool
-is_at_frame (const CeldJoinedLines *s, CeldPoint tip)
-{
-  double x = tip.x + s->mask.left, y = tip.y + s->mask.top, reach = s->graph.width + 1;
-
-  return fmin (x, y) < reach || x > s->stroke->width - reach || y > s->stroke->height - reach;
-}
-
 /* Is it clear that there is no head or dot at an end, if it is free?  One that other colours hide is not looked for. */
 static bool
 is_bare (const CeldHeadChoice *s, size_t end)
@@ -185,7 +176,7 @@ is_bare (const CeldHeadChoice *s, size_t end)
   const CeldNodeMarks *node = &s->node[celd_joined_node (s->lines, end)];
   CeldPoint            tip = node->tip[0];
 
-  return node->n > 1 || (!is_at_frame (s->lines, tip) &&
+  return node->n > 1 || (!celd_joined_is_at_frame (s->lines, tip) &&
                          (celd_joined_hidden_share (s->lines, tip, OTHERS * s->lines->graph.width) > 0 ||
                           node->cost[0] + BARE_MARGIN <= node->cost[1]));
 }
@@ -204,20 +195,20 @@ is_plausible (const CeldHeadChoice *s, size_t chain)
 }
 
 /* The arrow of a chain of lines.  A head is the farther end, a dot the nearer one. */
-static CeldLineArrows
+static CeldLineArrow
 arrow_of (const CeldHeadChoice *s, size_t chain)
 {
   size_t         head = outer_end (s, chain, true), tail = outer_end (s, chain, false);
   bool           dot = s->lines->style == CELD_ARROW_DOT;
-  CeldLineArrows arrow = { .n = 0 };
+  CeldLineArrow  arrow = { .clear = false };
   CeldPoint      marked, other;
 
   if (s->heads[chain] != 1 || head == NO_END || tail == NO_END || !is_clear (s, chain) || !is_plausible (s, chain) ||
       !find_place (s, head, &marked) || !find_place (s, tail, &other) || !is_bare (s, tail))
     return arrow;
-  arrow.n          = 1;
-  arrow.nearer[0]  = dot ? marked : other;
-  arrow.farther[0] = dot ? other : marked;
+  arrow.clear   = true;
+  arrow.nearer  = dot ? marked : other;
+  arrow.farther = dot ? other : marked;
   return arrow;
 }
 
@@ -259,11 +250,14 @@ choice_clear (CeldHeadChoice *s)
 }
 
 CeldStatus
-celd_joined_heads_read (CeldJoinedLines *lines, CeldLineArrows *arrows)
+celd_joined_heads_read (CeldJoinedLines *lines, CeldLineArrow **arrows)
 {
   CeldHeadChoice s;
   CeldStatus     status = choice_new (lines, &s);
 
+  *arrows = celd_alloc0 (lines->graph.n_lines, sizeof **arrows);
+  if (!*arrows)
+    status = CELD_NO_MEMORY;
   if (status == CELD_OK)
     status = find_node_marks (&s);
   if (status == CELD_OK)
@@ -272,9 +266,9 @@ celd_joined_heads_read (CeldJoinedLines *lines, CeldLineArrows *arrows)
     status = celd_head_choice_find (&s);
   for (size_t k = 0; k < lines->graph.n_lines && status == CELD_OK; k++)
     if (s.chain[k] == k)
-      arrows[k] = arrow_of (&s, k);
+      (*arrows)[k] = arrow_of (&s, k);
     else
-      arrows[k].part = true;
+      (*arrows)[k].part = true;
   choice_clear (&s);
   return status;
 }

@@ -14,17 +14,43 @@
 #define TO_NODE      5    /* ... to here, ... */
 #define TO_MORE      4    /* ... and pixels more */
 #define LEAD_SAMPLES 20   /* of the way from a line to a node, ... */
+#define LEAD_OFF     0.1  /* ... or near paint, ... */
 #define LEAD_LEAST   0.75 /* ... of which at least so much is painted */
+#define PARTING      0.7  /* radians by which lines turn that part, at most */
 #define LEAST_APART  1.3  /* from where lines meet to where each is alone */
+
+size_t
+celd_joined_lines_at (const CeldJoinedLines *lines, size_t end)
+{
+  size_t n = 0;
+
+  for (size_t i = 0; i < 2 * lines->graph.n_lines; i++)
+    n += celd_joined_node (lines, i) == celd_joined_node (lines, end);
+  return n;
+}
 
 bool
 celd_joined_is_free (const CeldJoinedLines *lines, size_t end)
 {
-  int n = 0;
+  return celd_joined_lines_at (lines, end) == 1;
+}
 
+bool
+celd_joined_part_from (const CeldJoinedLines *lines, size_t end)
+{
   for (size_t i = 0; i < 2 * lines->graph.n_lines; i++)
-    n += celd_joined_node (lines, i) == celd_joined_node (lines, end);
-  return n == 1;
+    if (i != end && celd_joined_node (lines, i) == celd_joined_node (lines, end) &&
+        celd_joined_turn (lines, end, i) > PARTING)
+      return false;
+  return celd_joined_lines_at (lines, end) > 2;
+}
+
+bool
+celd_joined_is_at_frame (const CeldJoinedLines *s, CeldPoint place)
+{
+  double x = place.x + s->mask.left, y = place.y + s->mask.top, reach = s->graph.width + 1;
+
+  return fmin (x, y) < reach || x > s->stroke->width - reach || y > s->stroke->height - reach;
 }
 
 size_t
@@ -77,26 +103,33 @@ celd_joined_meeting_point (const CeldJoinedLines *lines, int node)
   return celd_line_sums_point (&sums, lines->graph.node[node].at);
 }
 
-bool
-celd_joined_is_led_to (const CeldJoinedLines *lines, int node, CeldPoint place)
+/* Is paint at a point, or near it?  Thin tips are hardly wider than a pixel. */
+static bool
+is_near_paint (const CeldJoinedLines *lines, CeldPoint p)
 {
-  for (size_t i = 0; i < 2 * lines->graph.n_lines; i++)
-    if (celd_joined_node (lines, i) == node)
-      {
-        CeldPoint from = celd_joined_led_from (lines, i);
-        int       painted = 0;
+  double r = 1 + LEAD_OFF * lines->graph.width;
 
-        for (int k = 0; k < LEAD_SAMPLES; k++)
-          {
-            double t = (k + 0.5) / LEAD_SAMPLES;
+  for (double y = -r; y <= r; y += r)
+    for (double x = -r; x <= r; x += r)
+      if (celd_joined_painted (lines, (CeldPoint) { p.x + x, p.y + y }))
+        return true;
+  return false;
+}
 
-            painted += celd_joined_painted (lines, (CeldPoint) { from.x + t * (place.x - from.x),
-                                                                 from.y + t * (place.y - from.y) });
-          }
-        if (painted < LEAD_LEAST * LEAD_SAMPLES)
-          return false;
-      }
-  return true;
+bool
+celd_joined_is_led_to (const CeldJoinedLines *lines, size_t end, CeldPoint place)
+{
+  CeldPoint from = celd_joined_led_from (lines, end);
+  int       painted = 0;
+
+  for (int k = 0; k < LEAD_SAMPLES; k++)
+    {
+      double    t = (k + 0.5) / LEAD_SAMPLES;
+      CeldPoint p = { from.x + t * (place.x - from.x), from.y + t * (place.y - from.y) };
+
+      painted += is_near_paint (lines, p);
+    }
+  return painted >= LEAD_LEAST * LEAD_SAMPLES;
 }
 
 double

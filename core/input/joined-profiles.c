@@ -1,195 +1,220 @@
-/* Which way each of several lines that meet fades or tapers.
+/* Which way each of several lines that meet fades or tapers, and their arrows.
  *
- * The paint of each line is read alone (arrow-profile.c), without that round places where it meets others, which is of
- * several.  A line that is unclear as a whole may be two arrows that meet at its corner, or where its opacity or width
- * turns (profile-turn.c).
+ * The values of a line, opacity or width, give its direction (line-profiles.c); a line in which two arrows meet is
+ * divided there.  An arrow is a chain of lines that pass nodes (joined-passes.c), if its ends are in no doubt and have
+ * a place (joined-places.c).
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
+#include "base/base.h"
 #include "input/joined-arrows.h"
 
 #include <math.h>
-#include <string.h>
+#include <stdlib.h>
 
-#define CORNER_REACH 6 /* widths from a corner to where the directions of its sides are measured; chosen */
+/* All chosen; values are parts of the largest one of the connected paint. */
+#define SIGNAL     0.25 /* by which values fall along an arrow, as a part of its strong end, at least */
+#define MOST_TIP   0.4  /* of a tip, if other colours hide some of the paint: a stronger one may go on below them */
+#define LIKE_MOST  0.95 /* part of the values of connected paint that are not larger than `most` */
+#define ROUGH_TIP  1.5  /* widths of a line with a free end that is a rough edge, at most */
+#define MOST_PARTS 100  /* that are divided; more are a drawing, or hatching */
 
-/* A part of a line, from a point to another.  Of its ends: the place where others meet it, and the widths round there
- * where the paint is theirs, too; 0 = none meet it. */
-typedef struct { size_t line, from, to; CeldPoint place[2]; double apart[2]; } LinePart;
-
-static bool
-is_apart (const CeldJoinedLines *s, const LinePart *part, CeldPoint p)
+static int
+compare (const void *a, const void *b)
 {
-  for (int i = 0; i < 2; i++)
-    if (celd_points_apart (p, part->place[i]) < part->apart[i] * s->graph.width)
-      return false;
-  return true;
+  const double *x = a, *y = b;
+
+  return (*x > *y) - (*x < *y);
 }
 
-/* Lets the paint of a part be taken, as far as the part is wide, and as it is apart from others. */
+/* The largest value, but for few. */
+static CeldStatus
+find_most (CeldProfileReading *r)
+{
+  const CeldStrokeGraph *g = &r->lines->graph;
+  size_t                 n = 0, all = 0;
+  double                *value;
+
+  for (size_t k = 0; k < g->n_lines; k++)
+    all += g->line[k].n;
+  value = celd_alloc (all, sizeof *value);
+  if (!value)
+    return CELD_NO_MEMORY;
+  for (size_t k = 0; k < g->n_lines; k++)
+    for (size_t i = 0; i < g->line[k].n; i++)
+      {
+        double x = celd_line_value (r->lines, r->layer, k, i);
+
+        if (!isnan (x))
+          value[n++] = x;
+      }
+  qsort (value, n, sizeof *value, compare);
+  r->most = n ? fmax (1, value[(size_t) (LIKE_MOST * (double) (n - 1))]) : 1;
+  celd_free (value);
+  return CELD_OK;
+}
+
+/* Removes lines that lead on from where two or more meet to a free end, and are too short for an arrow. */
 static void
-allow_paint (CeldJoinedLines *s, const LinePart *part)
+remove_tips (CeldJoinedLines *s)
 {
-  const CeldStrokeLine *line = &s->graph.line[part->line];
-  size_t                p = 0;
+  CeldStrokeGraph *g = &s->graph;
 
-  memset (s->may_take, 0, (size_t) s->mask.width * (size_t) s->mask.height);
-  for (size_t i = part->from; i <= part->to; i++)
+  for (size_t k = g->n_lines; k-- > 0;)
     {
-      double r = sqrt (s->mask.squared[celd_joined_pixel (s, line->at[i])]) + 1;
+      size_t free_end = 2 * k + !celd_joined_is_free (s, 2 * k), end = free_end ^ 1;
+      double length = celd_stroke_line_length (&g->line[k]) / g->width;
+      bool   shared = celd_joined_part_from (s, end);
 
-      celd_joined_fill_disc (s, line->at[i], r, 1, s->may_take);
+      if (!celd_joined_is_free (s, free_end) || celd_joined_lines_at (s, end) < 3 ||
+          length > (shared ? CELD_LEAST_LINE : ROUGH_TIP))
+        continue;
+      if (shared)
+        {
+          g->node[celd_joined_node (s, end)].at  = g->node[celd_joined_node (s, free_end)].at;
+          g->node[celd_joined_node (s, end)].tip = true;
+        }
+      celd_free (g->line[k].at);
+      g->line[k] = g->line[--g->n_lines];
     }
-  for (int y = 0; y < s->mask.height; y++)
-    for (int x = 0; x < s->mask.width; x++, p++)
-      s->may_take[p] = s->may_take[p] && s->mask.painted[p] && is_apart (s, part, (CeldPoint) { x + 0.5, y + 0.5 });
 }
 
-/* The arrow of a part.  *tail: the end of the part that is nearer; -1 if its opacity or width does not say. */
+/* Divides lines where two arrows meet. */
 static CeldStatus
-read_part (CeldJoinedLines *s, const LinePart *part, const CeldArrowLayer *layer, CeldLineArrows *to, int *tail)
+divide_at_turns (CeldProfileReading *r)
 {
-  const CeldStrokeLine *line = &s->graph.line[part->line];
-  CeldJoinedPiece       piece;
-  CeldArrowEnds         ends;
-  CeldStatus            status;
+  CeldStrokeGraph *g = &r->lines->graph;
+  CeldStatus       status = CELD_OK;
 
-  *tail = -1;
-  allow_paint (s, part);
-  status = celd_joined_take (s, line->at[(part->from + part->to) / 2], &piece);
-  if (status == CELD_OK && piece.stroke.n >= CELD_LEAST_STROKE &&
-      celd_arrow_profile (&piece.stroke, layer, s->style, &ends))
+  for (size_t k = 0; k < g->n_lines && g->n_lines < MOST_PARTS && status == CELD_OK; k++)
     {
-      CeldPoint end[2] = { celd_joined_in_mask (s, ends.tail), celd_joined_in_mask (s, ends.tip) };
+      CeldLineProfile p;
 
-      *tail = celd_points_apart (end[0], line->at[part->from]) > celd_points_apart (end[0], line->at[part->to]);
-      to->nearer[to->n]    = part->apart[*tail] > 0 ? part->place[*tail] : end[0];
-      to->farther[to->n++] = part->apart[!*tail] > 0 ? part->place[!*tail] : end[1];
-    }
-  celd_joined_release (&piece);
-  return status;
-}
-
-/* From a point of a line to one that is so many points on. */
-static CeldPoint
-from_corner (const CeldStrokeLine *line, size_t at, double steps)
-{
-  size_t to = (size_t) fmin (fmax (0, (double) at + steps), (double) (line->n - 1));
-
-  return (CeldPoint) { line->at[to].x - line->at[at].x, line->at[to].y - line->at[at].y };
-}
-
-/* The two arrows that meet at a place of a line. */
-static CeldStatus
-read_two (CeldJoinedLines *s, const LinePart *whole, CeldPoint place, const CeldArrowLayer *layer, CeldLineArrows *to)
-{
-  const CeldStrokeLine *line = &s->graph.line[whole->line];
-  size_t                at = celd_stroke_line_nearest (line, place);
-  LinePart              part[2] = { *whole, *whole };
-  double                reach = CORNER_REACH * s->graph.width;
-  double                apart = celd_widths_apart (from_corner (line, at, -reach), from_corner (line, at, reach));
-  int                   tail[2] = { -1, -1 };
-  CeldStatus            status = CELD_OK;
-
-  part[0].to       = part[1].from     = at;
-  part[0].place[1] = part[1].place[0] = place;
-  part[0].apart[1] = part[1].apart[0] = apart;
-  for (int i = 0; i < 2 && status == CELD_OK && apart <= CELD_MOST_APART; i++)
-    status = read_part (s, &part[i], layer, to, &tail[i]);
-  if (tail[0] < 0 || tail[1] < 0)
-    to->n = 0;
-  else
-    {
-      to->role[0] = tail[0] == 0 ? -1 : 1;
-      to->role[1] = tail[1] == 1 ? -1 : 1;
+      status = celd_line_profile_find (r->lines, r->layer, k, r->most, &p);
+      for (size_t i = p.n_turns; i-- > 0 && status == CELD_OK;)
+        {
+          status = celd_stroke_graph_divide (g, k, p.turn[i].at);
+          g->node[g->n_nodes - 1].vague = p.turn[i].vague;
+        }
     }
   return status;
 }
 
-/* The two arrows that meet at the corner of a line. */
-static CeldStatus
-read_corner (CeldJoinedLines *s, const LinePart *whole, const CeldArrowLayer *layer, CeldLineArrows *to)
-{
-  CeldPoint corner;
+/* ------------------------------------------------------------------ arrows */
 
-  if (!celd_stroke_line_corner (&s->graph, whole->line, &corner))
-    return CELD_OK;
-  return read_two (s, whole, corner, layer, to);
+/* The end at the other end of the lines that an end passes to. */
+static size_t
+far_end (const CeldProfileReading *r, size_t end)
+{
+  for (end ^= 1; r->next[end] != CELD_NO_END; end = r->next[end] ^ 1)
+    ;
+  return end;
 }
 
-/* The two arrows that meet where the opacity or width of a line turns. */
-static CeldStatus
-read_turn (CeldJoinedLines *s, const LinePart *whole, const CeldArrowLayer *layer, CeldLineArrows *to)
-{
-  const CeldStrokeLine *line = &s->graph.line[whole->line];
-  CeldJoinedPiece       piece;
-  CeldPoint             place = { 0, 0 };
-  double                turn = 0;
-  CeldStatus            status;
-
-  allow_paint (s, whole);
-  status = celd_joined_take (s, line->at[line->n / 2], &piece);
-  if (status == CELD_OK && piece.stroke.n >= CELD_LEAST_STROKE)
-    {
-      uint32_t start = celd_stroke_follow (&piece.stroke, piece.stroke.pixel, 1);
-
-      celd_stroke_follow (&piece.stroke, &start, 1);
-      status = celd_stroke_turn_find (&piece.stroke, layer, s->style, s->graph.width, &turn);
-      place  = celd_joined_in_mask (s, celd_stroke_centroid (&piece.stroke, turn - 1, turn + 1));
-    }
-  celd_joined_release (&piece);
-  return turn > 0 ? read_two (s, whole, place, layer, to) : status;
-}
-
+/* Are all lines from an end on of one clear arrow?  *direction: 1 if it is its nearer end, -1 if it is its farther one,
+ * 0 if that is not known. */
 static bool
-is_moved (const CeldJoinedLines *s, int node, CeldPoint place)
+is_one_arrow (const CeldProfileReading *r, size_t end, int *direction)
 {
-  return celd_points_apart (s->graph.node[node].at, place) > CELD_MOST_MOVED * s->graph.width;
+  bool            clear = r->profile[end / 2].known;
+  double          value = celd_value_at (r, end);
+  CeldPaintColour colour = r->profile[end / 2].colour[end % 2];
+
+  for (*direction = 0;; end = r->next[end])
+    {
+      const CeldLineProfile *p = &r->profile[end / 2];
+      int                    here = celd_is_tail (r, end) ? 1 : celd_is_tip (r, end) ? -1 : 0;
+
+      clear &= r->alone[end / 2] && !(here && *direction == -here);
+      *direction = here ? here : *direction;
+      if (p->known)
+        {
+          clear &= fabs (value - celd_value_at (r, end)) <= CELD_SAME_VALUE;
+          value = celd_value_at (r, end ^ 1);
+        }
+      for (size_t i = 0; i < 2; i++)
+        if (celd_paint_colour_known (p->colour[i ^ (end % 2)]))
+          {
+            clear &= !celd_paint_colour_known (colour) || celd_same_paint (r->layer, colour, p->colour[i ^ (end % 2)]);
+            colour = p->colour[i ^ (end % 2)];
+          }
+      end ^= 1;
+      if (r->next[end] == CELD_NO_END)
+        return clear && p->known;
+      clear &= !r->doubt[end] && !r->doubt[r->next[end]];
+    }
+}
+
+/* The arrow whose lines begin at an end. */
+static CeldLineArrow
+arrow_from (const CeldProfileReading *r, size_t end)
+{
+  int            direction;
+  bool           clear = is_one_arrow (r, end, &direction);
+  size_t         far = far_end (r, end), tail = direction > 0 ? end : far, tip = direction > 0 ? far : end;
+  CeldLineArrow arrow = { .clear = false };
+
+  arrow.clear = clear && direction && !r->doubt[tail] && !r->doubt[tip] && !celd_joined_meets_doubt (r, tail) &&
+            !celd_joined_meets_doubt (r, tip) && celd_value_at (r, tip) <= (1 - SIGNAL) * celd_value_at (r, tail) &&
+            !(r->lines->hidden && celd_value_at (r, tip) > MOST_TIP) &&
+            celd_joined_place (r->lines, tail, &arrow.nearer) && celd_joined_place (r->lines, tip, &arrow.farther);
+  return arrow;
+}
+
+/* Each chain of lines that is none of a ring has two ends: its arrow is that of the line of the first one. */
+static void
+find_arrows (const CeldProfileReading *r, CeldLineArrow *arrows)
+{
+  for (size_t i = 0; i < 2 * r->lines->graph.n_lines; i++)
+    if (r->next[i] == CELD_NO_END && far_end (r, i) > i)
+      {
+        for (size_t k = i ^ 1; r->next[k] != CELD_NO_END; k = r->next[k] ^ 1)
+          arrows[r->next[k] / 2].part = true;
+        arrows[i / 2] = arrow_from (r, i);
+      }
 }
 
 static CeldStatus
-read_line (CeldJoinedLines *s, size_t k, bool alone, const CeldArrowLayer *layer, CeldLineArrows *to)
+reading_new (CeldProfileReading *r)
 {
-  LinePart   whole = { .line = k, .to = s->graph.line[k].n - 1 };
-  int        tail;
+  size_t     n = r->lines->graph.n_lines;
   CeldStatus status;
 
-  if (!alone)
-    return CELD_OK;
-  for (size_t i = 0; i < 2; i++)
+  r->profile = celd_alloc (n, sizeof *r->profile);
+  r->alone   = celd_alloc (n, sizeof *r->alone);
+  r->next    = celd_alloc (2 * n, sizeof *r->next);
+  r->doubt   = celd_alloc0 (2 * n, sizeof *r->doubt);
+  status     = r->profile && r->alone && r->next && r->doubt ? CELD_OK : CELD_NO_MEMORY;
+  celd_joined_explain_wide_lines (r->lines);
+  for (size_t k = 0; k < n && status == CELD_OK; k++)
     {
-      whole.apart[i] = celd_joined_widths_apart (s, 2 * k + i);
-      whole.place[i] = celd_joined_meeting_point (s, s->graph.line[k].node[i]);
-      if (whole.apart[i] > CELD_MOST_APART || (s->hidden && s->graph.node[s->graph.line[k].node[i]].branched) ||
-          (whole.apart[i] > 0 && (!celd_joined_is_led_to (s, s->graph.line[k].node[i], whole.place[i]) ||
-                                  is_moved (s, s->graph.line[k].node[i], whole.place[i]))))
-        return CELD_OK;
+      r->alone[k] = celd_joined_is_alone (r->lines, k, 0) && !celd_joined_runs_along_frame (r->lines, k);
+      status      = celd_line_profile_find (r->lines, r->layer, k, r->most, &r->profile[k]);
     }
-  status = read_part (s, &whole, layer, to, &tail);
-  if (status == CELD_OK && tail < 0)
-    {
-      status = read_corner (s, &whole, layer, to);
-      return status == CELD_OK && !to->n && !s->hidden ? read_turn (s, &whole, layer, to) : status;
-    }
-  for (int i = 0; i < 2; i++)
-    to->role[i] = i == tail ? -1 : 1;
   return status;
 }
 
 CeldStatus
-celd_joined_profiles_read (CeldJoinedLines *lines, const CeldArrowLayer *layer, CeldLineArrows *arrows)
+celd_joined_profiles_read (CeldJoinedLines *lines, const CeldArrowLayer *layer, CeldLineArrow **arrows)
 {
-  bool      *alone = celd_alloc (lines->graph.n_lines, sizeof *alone);
-  CeldStatus status = alone ? CELD_OK : CELD_NO_MEMORY;
+  CeldProfileReading r = { .lines = lines, .layer = layer };
+  CeldStatus status = find_most (&r);
 
-  celd_joined_explain_wide_lines (lines);
-  for (size_t k = 0; alone && k < lines->graph.n_lines; k++)
-    alone[k] = celd_joined_is_alone (lines, k, 0);
-  for (size_t k = 0; k < lines->graph.n_lines && status == CELD_OK; k++)
-    {
-      arrows[k] = (CeldLineArrows) { .n = 0 };
-      status    = read_line (lines, k, alone[k], layer, &arrows[k]);
-    }
-  celd_free (alone);
+  *arrows = NULL;
+  remove_tips (lines);
+  if (status == CELD_OK)
+    status = divide_at_turns (&r);
+  if (status == CELD_OK)
+    status = reading_new (&r);
+  if (status == CELD_OK && !(*arrows = celd_alloc0 (lines->graph.n_lines, sizeof **arrows)))
+    status = CELD_NO_MEMORY;
+  if (status == CELD_OK)
+    status = celd_joined_passes_find (&r);
+  if (status == CELD_OK)
+    find_arrows (&r, *arrows);
+  celd_free (r.profile);
+  celd_free (r.alone);
+  celd_free (r.next);
+  celd_free (r.doubt);
   return status;
 }

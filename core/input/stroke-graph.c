@@ -15,17 +15,21 @@
 /* All chosen; lengths are widths of the paint. */
 #define ROUGH         1.2  /* radii of the paint where a branch begins: one no longer than that is a rough edge; ... */
 #define ROUGH_MORE    1    /* ... and pixels more */
-#define BRANCH         7    /* length of a branch that is no stroke, ... */
+#define BRANCH        7    /* length of a branch that is no stroke, ... */
 #define LONGER        1.5  /* ... and how many times as long another line of its node is */
 #define BRANCH_WEIGHT 0.5  /* of a branch where lines should meet; of lines: 1 */
 #define FILLED        0.95 /* radius of the paint where branches are of a filled head, and do not meet at its tip */
-#define NEAR          5.5  /* between nodes that are one */
+#define NEAR          5.5  /* between nodes that are one if there are heads; ... */
+#define NEAREST       2    /* ... if there are none; ... */
+#define FORK_LENGTH   8    /* ... and if lines part at one of the nodes, which lie on each other from the other one */
+#define FORK_TURN     0.25 /* radians by which lines turn that part, and more if they part soon, ... */
+#define DIRECTION     6    /* ... from so far */
 #define LOOP          14   /* length of a line that returns to its node and is no stroke */
 #define WIDE          1.4  /* width of a place where a line is divided, ... */
 #define WIDE_MARGIN   4    /* ... at least so far from its ends */
 #define MOST_TRACED   2000 /* lines before branches are removed: more are a drawing, or noise */
 
-typedef struct { const CeldStrokeMask *mask; CeldStrokeGraph graph; } Build;
+typedef struct { const CeldStrokeMask *mask; bool heads; CeldStrokeGraph graph; } Build;
 
 static void
 remove_line (CeldStrokeGraph *g, size_t k)
@@ -120,7 +124,7 @@ remove_branches (Build *b)
       int             end = branch_end (g, line, ends), hub = end < 0 ? 0 : line->node[!end];
       bool            rough = end >= 0 && is_rough (b, line, hub);
 
-      if (end < 0 || (!rough && left[hub] == 1 && real[hub] == 1))
+      if (end < 0 || (!rough && (!b->heads || (left[hub] == 1 && real[hub] == 1))))
         continue;
       if (!rough && radius_at (b, g->node[hub].at) < FILLED * g->width)
         add_branch (g, line, end);
@@ -194,30 +198,89 @@ add_node (CeldStrokeNode *a, const CeldStrokeNode *b)
   };
 }
 
+/* The direction of a line from one of its ends. */
+static CeldPoint
+direction (const CeldStrokeGraph *g, const CeldStrokeLine *line, int end)
+{
+  size_t    last = line->n - 1, reach = (size_t) fmin (DIRECTION * g->width, (double) last);
+  CeldPoint a = line->at[end ? last : 0], b = line->at[end ? last - reach : reach];
+
+  return (CeldPoint) { b.x - a.x, b.y - a.y };
+}
+
+/* Do at least two other lines of a node of line k go about straight on from there?  Then they lie on each other along it:
+ * the longer, the less they turn. */
+static bool
+parts_there (const CeldStrokeGraph *g, size_t k, int end)
+{
+  CeldPoint into = direction (g, &g->line[k], end);
+  double    turn = FORK_TURN + g->width / fmax (1, celd_stroke_line_length (&g->line[k]));
+  int       n = 0;
+
+  for (size_t i = 0; i < 2 * g->n_lines; i++)
+    if (i / 2 != k && g->line[i / 2].node[i % 2] == g->line[k].node[end])
+      {
+        CeldPoint on = direction (g, &g->line[i / 2], i % 2);
+
+        if (fabs (atan2 (into.y * on.x - into.x * on.y, -into.x * on.x - into.y * on.y)) > turn)
+          return false;
+        n++;
+      }
+  return n > 1;
+}
+
+/* Does a line lead between two nodes that are one? */
+static bool
+is_between (const Build *b, size_t k)
+{
+  const CeldStrokeLine *line = &b->graph.line[k];
+  double                length = celd_stroke_line_length (line) / b->graph.width;
+
+  if (line->node[0] == line->node[1])
+    return length <= LOOP;
+  if (b->heads)
+    return length <= NEAR;
+  return length <= NEAREST ||
+         (length <= FORK_LENGTH && (parts_there (&b->graph, k, 0) || parts_there (&b->graph, k, 1)));
+}
+
+/* If lines part at one end of a line, they come from its other end: gives both ends that place. */
+static void
+leave_parting (CeldStrokeGraph *g, size_t k)
+{
+  const int *node = g->line[k].node;
+  bool       first = parts_there (g, k, 0), last = parts_there (g, k, 1);
+
+  if (first != last)
+    g->node[node[last]].at = g->node[node[first]].at;
+}
+
 /* Makes nodes one that a short line connects, and removes that line. */
 static void
-merge_nodes (CeldStrokeGraph *g)
+merge_nodes (Build *b)
 {
+  CeldStrokeGraph *g = &b->graph;
+
   for (size_t k = g->n_lines; k-- > 0;)
     {
-      int a = g->line[k].node[0], b = g->line[k].node[1];
+      int one = g->line[k].node[0], other = g->line[k].node[1];
 
-      if (degree (g, a) < 2 || degree (g, b) < 2 ||
-          celd_stroke_line_length (&g->line[k]) > (a == b ? LOOP : NEAR) * g->width)
+      if (degree (g, one) < 2 || degree (g, other) < 2 || !is_between (b, k))
         continue;
+      if (!b->heads)
+        leave_parting (g, k);
       for (size_t i = 0; i < g->n_lines; i++)
         for (int end = 0; end < 2; end++)
-          if (g->line[i].node[end] == b)
-            g->line[i].node[end] = a;
-      if (a != b)
-        add_node (&g->node[a], &g->node[b]);
+          if (g->line[i].node[end] == other)
+            g->line[i].node[end] = one;
+      if (one != other)
+        add_node (&g->node[one], &g->node[other]);
       remove_line (g, k);
     }
 }
 
-/* Divides a line at a point, which becomes a node. */
-static CeldStatus
-divide (CeldStrokeGraph *g, size_t k, size_t at)
+CeldStatus
+celd_stroke_graph_divide (CeldStrokeGraph *g, size_t k, size_t at)
 {
   CeldStrokeLine rest = { .node = { (int) g->n_nodes, g->line[k].node[1] } };
   CeldStrokeNode node = { .at = g->line[k].at[at], .branched = true };
@@ -258,7 +321,7 @@ divide_where_wide (Build *b)
           }
       if (widest)
         {
-          status = divide (g, k, widest);
+          status = celd_stroke_graph_divide (g, k, widest);
           k -= status == CELD_OK;
         }
     }
@@ -275,16 +338,16 @@ divide_at_corners (CeldStrokeGraph *g)
   for (size_t k = 0; k < g->n_lines && status == CELD_OK; k++)
     if (celd_stroke_line_corner (g, k, &corner))
       {
-        status = divide (g, k, celd_stroke_line_nearest (&g->line[k], corner));
+        status = celd_stroke_graph_divide (g, k, celd_stroke_line_nearest (&g->line[k], corner));
         k -= status == CELD_OK;
       }
   return status;
 }
 
 CeldStatus
-celd_stroke_graph_new (const CeldStrokeMask *mask, bool divided, CeldStrokeGraph *graph)
+celd_stroke_graph_new (const CeldStrokeMask *mask, bool heads, CeldStrokeGraph *graph)
 {
-  Build      b = { .mask = mask };
+  Build      b = { .mask = mask, .heads = heads };
   CeldStatus status = celd_stroke_trace (mask, &b.graph);
 
   if (status == CELD_OK && b.graph.n_lines > MOST_TRACED)
@@ -293,18 +356,18 @@ celd_stroke_graph_new (const CeldStrokeMask *mask, bool divided, CeldStrokeGraph
     status = join_lines (&b.graph);
   if (status == CELD_OK)
     {
-      merge_nodes (&b.graph);
+      merge_nodes (&b);
       status = remove_branches (&b);
     }
   if (status == CELD_OK)
     status = join_lines (&b.graph);
   if (status == CELD_OK)
-    merge_nodes (&b.graph);
-  if (status == CELD_OK && divided)
+    merge_nodes (&b);
+  if (status == CELD_OK && heads)
     status = divide_where_wide (&b);
-  if (status == CELD_OK && divided)
-    merge_nodes (&b.graph);
-  if (status == CELD_OK && divided)
+  if (status == CELD_OK && heads)
+    merge_nodes (&b);
+  if (status == CELD_OK && heads)
     status = divide_at_corners (&b.graph);
   if (status != CELD_OK)
     celd_stroke_graph_clear (&b.graph);

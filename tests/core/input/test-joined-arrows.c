@@ -311,6 +311,82 @@ thin_diagonals (void)
     }
 }
 
+/* Draws arrows that fade or taper, in an order at random, and counts those that are read; no other one is. */
+static int
+read_all (Arrow *a, int n, CeldArrowStyle style, uint32_t *state)
+{
+  CeldPaint paint = blank (SIZE, SIZE);
+  Answer    answer;
+  int       found;
+
+  for (int k = n - 1; k > 0; k--)
+    {
+      int   other = (int) check_random (state, (uint32_t) k + 1);
+      Arrow b = a[k];
+
+      a[k]     = a[other];
+      a[other] = b;
+    }
+  for (int k = 0; k < n; k++)
+    draw_arrow (&paint, &a[k], GREEN);
+  answer = read_paint (&paint, style);
+  found  = (int) count_read (&answer, a, n, style);
+  CHECK ((int) answer.relations.n == found);
+  forget (&answer);
+  free (paint.data);
+  return found;
+}
+
+/* Four that arrive at one place, and one more that arrives, or begins, where each of them begins. */
+static void
+a_star_that_leads_on (void)
+{
+  uint32_t state = 41;
+  int      right = 0;
+
+  for (int i = 0; i < 60; i++)
+    {
+      CeldArrowStyle style = i % 2 ? CELD_ARROW_FADE : CELD_ARROW_TAPER;
+      double         w = random_between (&state, 4, 6), turn = random_between (&state, 0, 6.28);
+      Arrow          a[8];
+
+      for (int k = 0; k < 4; k++)
+        {
+          double angle = turn + 1.5708 * k + random_between (&state, -0.2, 0.2), on = random_between (&state, 0.9, 1.3);
+          Point  middle = { SIZE / 2., SIZE / 2. };
+
+          a[2 * k]     = through (middle, angle + 3.14159265, 80, 1, w, style, true);
+          a[2 * k + 1] = through (a[2 * k].point[0], k % 2 ? angle + 3.14159265 - on : angle + on, 45, k % 2, w, style,
+                                  true);
+        }
+      right += read_all (a, 8, style, &state);
+    }
+  CHECK (right >= 0.8 * 60 * 8);
+}
+
+/* Two that leave one place, and one that crosses both: it goes on where its opacity or width does. */
+static void
+crossed_on_the_way (void)
+{
+  uint32_t state = 43;
+  int      right = 0;
+
+  for (int i = 0; i < 60; i++)
+    {
+      CeldArrowStyle style = i % 2 ? CELD_ARROW_FADE : CELD_ARROW_TAPER;
+      double         w = random_between (&state, 4, 6), turn = random_between (&state, 0, 6.28);
+      Point          from = { SIZE / 2. - 90 * cos (turn), SIZE / 2. - 90 * sin (turn) };
+      Point          middle = { SIZE / 2., SIZE / 2. };
+      Arrow          a[3];
+
+      for (int k = 0; k < 2; k++)
+        a[k] = through (from, turn + (k ? 0.35 : -0.35), 190, 0, w, style, true);
+      a[2] = through (middle, turn + 1.5708 + random_between (&state, -0.3, 0.3), 180, 0.5, w, style, true);
+      right += read_all (a, 3, style, &state);
+    }
+  CHECK (right >= 0.8 * 60 * 3);
+}
+
 /* All are blue, so that all crack. */
 static void
 cracks (void)
@@ -340,6 +416,8 @@ main (void)
   RUN (side_by_side);
   RUN (at_any_angles);
   RUN (in_one_line);
+  RUN (a_star_that_leads_on);
+  RUN (crossed_on_the_way);
   RUN (swelling_strokes);
   RUN (bare_strokes);
   RUN (in_a_net);
