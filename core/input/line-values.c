@@ -15,15 +15,18 @@
 #define FREE_END    0.7  /* at a free end, which is round, and says nothing */
 #define MOST_UNSEEN 0.3  /* part of a line that others hide */
 
-/* The opacity at a point; NAN where others hide what is there. */
+/* The opacity at a point; 0 outside the picture, beyond which the border of the mask may lie; NAN where others hide what
+ * is there. */
 static double
 opacity_at (const CeldJoinedLines *s, const CeldArrowLayer *layer, CeldPoint p)
 {
-  if (!celd_joined_inside (s, p))
+  CeldPoint q = { p.x + s->mask.left, p.y + s->mask.top };
+
+  if (!celd_joined_inside (s, p) || q.x < 0 || q.y < 0 || q.x >= s->stroke->width || q.y >= s->stroke->height)
     return 0;
   if (s->hidden && s->hidden[celd_joined_pixel (s, p)])
     return NAN;
-  return celd_arrow_opacity (layer, (int) p.x + s->mask.left, (int) p.y + s->mask.top);
+  return celd_arrow_opacity (layer, (int) q.x, (int) q.y);
 }
 
 static double
