@@ -54,7 +54,7 @@ meeting_point (const CeldJoinedLines *s, size_t end, double *kept)
 static double
 paint_ahead (const CeldJoinedLines *s, CeldPoint place, CeldPoint way)
 {
-  double d = 0, most = way.x || way.y ? s->mask.width + s->mask.height : 0;
+  double d = 0, most = way.x * way.x + way.y * way.y > 0 ? s->mask.width + s->mask.height : 0;
 
   while (d < most && celd_joined_painted (s, celd_moved (place, way, d + 1)))
     d++;
