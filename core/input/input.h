@@ -406,7 +406,8 @@ typedef struct { CeldPoint *at; size_t n, capacity; int node[2]; } CeldStrokeLin
 /* Lines that should meet in a point: the sums of their normal equations, from which it follows by least squares. */
 typedef struct { double xx, xy, yy, x, y; } CeldLineSums;
 
-/* Where lines end or meet, and the short branches that were there. */
+/* Where lines end or meet, and the short branches that were there.  tip: `at` is the end of paint that its lines share;
+ * vague: a line was divided there, but perhaps not at the right place. */
 typedef struct { CeldPoint at; bool branched, tip, vague; CeldLineSums branches; } CeldStrokeNode;
 
 typedef struct
@@ -420,10 +421,10 @@ typedef struct
 /* All lines of the thinned paint of a mask, but for closed ones that meet no other.  To be cleared by the caller. */
 CeldStatus celd_stroke_trace (const CeldStrokeMask *mask, CeldStrokeGraph *graph);
 
-/* The long ones of these lines; with `divided`, they end also at corners, and where the paint is much wider than
- * elsewhere, as it is at heads and dots.  None if there are more than 2000 lines, which are no arrows.  To be cleared by
- * the caller. */
-CeldStatus celd_stroke_graph_new (const CeldStrokeMask *mask, bool divided, CeldStrokeGraph *graph);
+/* The long ones of these lines.  With `heads` arrows have heads or dots: short branches are parts of heads, and lines end
+ * also at corners, and where the paint is much wider than elsewhere.  None if there are more than 2000 lines, which are
+ * no arrows.  To be cleared by the caller. */
+CeldStatus celd_stroke_graph_new (const CeldStrokeMask *mask, bool heads, CeldStrokeGraph *graph);
 void       celd_stroke_graph_clear (CeldStrokeGraph *graph);
 
 /* Leads a line on straight to a point. */

@@ -113,15 +113,13 @@ may_go_on (const CeldProfileReading *r, size_t end)
 static bool
 is_crossed (const CeldProfileReading *r, size_t end)
 {
-  double turn = 0;
-  bool   crossed = false, on = false;
+  bool crossed = false, on = false;
 
   for (size_t i = 0; i < 2 * r->lines->graph.n_lines; i++)
     if (i != end && celd_joined_node (r->lines, i) == celd_joined_node (r->lines, end))
       {
-        turn = celd_joined_turn (r->lines, end, i);
         crossed |= r->next[i] != CELD_NO_END;
-        on |= turn < TURNED_ASIDE;
+        on |= celd_joined_turn (r->lines, end, i) < TURNED_ASIDE;
       }
   return crossed && on;
 }
