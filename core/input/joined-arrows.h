@@ -135,7 +135,8 @@ typedef struct
   double                *value;
 } CeldLineValues;
 
-/* The opacity (0 to 255) or width of line k at its point i; NAN = others hide it. */
+/* The opacity (0 to 255) or width (in pixels, times the opacity of the paint) of line k at its point i; NAN = others
+ * hide it. */
 double celd_line_value (const CeldJoinedLines *lines, const CeldArrowLayer *layer, size_t k, size_t i);
 
 /* The values of line k, of which `most` is 1: means of those around each point; where others hide the line, those
