@@ -262,7 +262,8 @@ choose (CeldSegmentTask *task, const Frame *frame, uint32_t *label)
 }
 
 /* Adds the background's seeds in enclosures along the frame without an owner, and removes spills there.  Hard strokes
- * stay: they may lie where a bridge covers the paper. */
+ * stay: they may lie where a bridge covers the paper.  If the background is painted, these enclosures are remembered:
+ * the artist may have forgotten them. */
 static CeldStatus
 seed (CeldSegmentTask *task, const CeldStrokes *strokes, Frame *frame, uint32_t label)
 {
@@ -291,7 +292,10 @@ seed (CeldSegmentTask *task, const CeldStrokes *strokes, Frame *frame, uint32_t 
         next++;
       status = celd_seed_rows_paint (&task->seeds, (int) (p / w), (int) (p % w), (int) (p % w + next - i), label);
     }
-  celd_free (unowned);
+  if (task->palette.item[label - 1].origin == CELD_FROM_BACKGROUND)
+    celd_free (unowned);
+  else
+    task->unpainted = unowned;
   return status;
 }
 

@@ -133,8 +133,8 @@ report_lost (const CeldSegmentTask *task, const CeldSeedRows *seeds, CeldProblem
 
 /* ------------------------------------------------------------------ regions */
 
-/* A part of the paper without seeds.  `area`: of its basins, ink included; 0: not worth reporting.  `missing`: paper
- * still to be found for it to be.  `basin`: the basin farthest from ink, from 1. */
+/* A part of the paper that nobody painted.  `area`: of its basins, ink included; 0: not worth reporting.  `missing`:
+ * paper still to be found for it to be.  `basin`: the basin farthest from ink, from 1. */
 typedef struct { size_t area, missing, basin; } PaperPart;
 
 /* The parts that count: connected paper, with gaps closed by bridges, as a stroke reaches through a narrow neck. */
@@ -157,9 +157,22 @@ gather_parts (const CeldBasins *b, const uint32_t *part_of, PaperPart *part)
     }
 }
 
-/* Selects parts of sufficient size without seeds, and returns their number. */
+/* Drops the parts with seeds, but for those that a painted background got along the frame. */
+static void
+drop_reached (const CeldSegmentTask *task, const CeldStrokes *strokes, const uint32_t *part_of, PaperPart *part)
+{
+  for (size_t i = 0; i < strokes->n_pieces; i++)
+    {
+      const CeldStrokePiece *piece = &strokes->piece[i];
+
+      if (piece->paper && !(task->unpainted && task->unpainted[task->basins->enclosure[piece->basin]]))
+        part[part_of[piece->basin]].area = 0;
+    }
+}
+
+/* Selects parts of sufficient size, and returns their number. */
 static size_t
-choose_parts (const CeldBasins *b, const CeldStrokes *strokes, PaperPart *part, size_t n_parts)
+choose_parts (const CeldBasins *b, PaperPart *part, size_t n_parts)
 {
   size_t side = (size_t) (SMALLEST_WIDTH * b->stroke), page = (size_t) b->width * (size_t) b->height, n = 0;
   size_t least = page / SMALLEST_SHARE + 1, large = page / LARGE_SHARE + 1;
@@ -168,8 +181,6 @@ choose_parts (const CeldBasins *b, const CeldStrokes *strokes, PaperPart *part, 
   least = least < large ? least : large;
   least = least > SMALLEST_AREA ? least : SMALLEST_AREA;
   part[0].area = 0;
-  for (size_t i = 0; i < strokes->n; i++)
-    part[strokes->overlap[i].part].area = 0;
   for (size_t k = 1; k <= n_parts; k++)
     if (part[k].area >= least)
       {
@@ -213,11 +224,12 @@ report_unreached (const CeldSegmentTask *task, const CeldLabels *labels, CeldPro
   for (size_t k = 0; k < b->n; k++)
     n_parts = part_of[k] > n_parts ? part_of[k] : n_parts;
   part   = celd_alloc0 (n_parts + 1, sizeof *part);
-  status = part ? celd_strokes_new (task, part_of, &strokes) : CELD_NO_MEMORY;
+  status = part ? celd_strokes_new (task, NULL, &strokes) : CELD_NO_MEMORY;
   if (status == CELD_OK)
     {
       gather_parts (b, part_of, part);
-      find_paper (b, part_of, choose_parts (b, &strokes, part, n_parts), part);
+      drop_reached (task, &strokes, part_of, part);
+      find_paper (b, part_of, choose_parts (b, part, n_parts), part);
     }
   for (size_t k = 1; k <= n_parts && status == CELD_OK; k++)
     if (part[k].area && !part[k].missing)

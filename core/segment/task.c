@@ -69,6 +69,7 @@ celd_task_clear (CeldSegmentTask *task)
   celd_strokes_clear (&task->painted);
   celd_palette_clear (&task->palette);
   celd_free (task->seeded);
+  celd_free (task->unpainted);
 }
 
 void

@@ -88,6 +88,8 @@ typedef struct
   CeldStrokes         painted;           /* the strokes before spills were removed; empty until then */
   bool                spilled;           /* has a spill been removed? */
   bool               *seeded;            /* of each enclosure: is there a seed on its paper?  NULL without arrows */
+  bool               *unpainted;         /* of each enclosure: has it seeds of a painted background along the frame, and
+                                          * nothing else?  NULL: none has */
   size_t              n_effective;       /* relations up to the last one that added seeds, split a region or ruled out a
                                           * background */
   CeldStrokes        *kept;              /* strokes of the last solve, to be reused; NULL: none are kept */

@@ -238,6 +238,28 @@ def forgotten():
     return f
 
 
+def cut_off():
+    """Rooms that the frame cuts off: one is painted, one is closed, one is open through a gap, and one is a speck."""
+    f = Figure()
+    f.shape([(-10, 150), (50, 150), (50, 210), (-10, 210)])
+    f.shape([(-10, 40), (60, 40), (60, 110), (-10, 110)])
+    f.shape([(190, -10), (190, 70), (250, 70), (250, -10)])
+    f.ink.rectangle([v * SCALE for v in (186, 28, 194, 36)], 255)
+    f.shape(box(150, 194, 156, 210))
+    f.stroke('scribbles', [(10, 170), (30, 190)], A)
+    f.stroke('scribbles', [(90, 20), (90, 180)], B)
+    return f
+
+
+def unpainted_page():
+    """The page is not painted, in any of the parts into which a figure divides it, and a room in the figure is not."""
+    f = Figure()
+    f.shape([(-10, 70), (250, 50), (250, 150), (-10, 130)])
+    f.shape(box(150, 80, 190, 120))
+    f.stroke('scribbles', [(20, 100), (100, 100)], A)
+    return f
+
+
 def stopped_short(gap, x=120, width=4, outline=4):
     """A box whose left part is painted.  The wall at x stops so many stroke widths short of the upper side."""
     f = Figure()
@@ -373,9 +395,9 @@ def soft_on_white():
 
 
 FIGURES = [two_arrows, thick, contours, two_characters, frame, limbs, cycle, broken, pinched_little, pinched_much,
-           severed, close_up, forgotten, stopped_near, stopped_farther, stopped_far, open_bay, vein, notch, hairline,
-           stroke_on_contour, pencil_on_smooth_paper, pencil_on_rough_paper, cover_on_thick, cover_on_thicker,
-           soft_on_white]
+           severed, close_up, forgotten, cut_off, unpainted_page, stopped_near, stopped_farther, stopped_far, open_bay,
+           vein, notch, hairline, stroke_on_contour, pencil_on_smooth_paper, pencil_on_rough_paper, cover_on_thick,
+           cover_on_thicker, soft_on_white]
 
 
 if __name__ == '__main__':

@@ -176,6 +176,18 @@ def forgotten(run):
     yield 'and no other', len(places) == 2
 
 
+def cut_off(run):
+    places = unreached(run())
+    yield 'the closed room is named', any(x < 60 and 40 < y < 110 for x, y in places)
+    yield 'so is the one behind a gap', any(x > 190 and y < 70 for x, y in places)
+    yield 'and no other', len(places) == 2
+
+
+def unpainted_page(run):
+    places = unreached(run())
+    yield 'the room in the figure is named, and no other', len(places) == 1 and 150 < places[0][0] < 190
+
+
 def stopped_short(run):
     places = unreached(run())
     yield 'the room behind the gap is named, and no other', len(places) == 1 and 120 < places[0][0] < 220
@@ -217,9 +229,9 @@ def cover(run):
     yield 'each sheet has its own line', all(right[ink & (r.owner == k)].mean() >= 0.95 for k in (1, 2))
 
 
-OUTCOMES = [two_arrows, thick, contours, two_characters, frame, limbs, cycle, broken, pinched, pinched,
-            severed, close_up, forgotten, stopped_short, stopped_short, stopped_short, no_room, no_room, no_room, hairline,
-            stroke_on_contour, hairline, hairline, cover, cover, soft_on_white]
+OUTCOMES = [two_arrows, thick, contours, two_characters, frame, limbs, cycle, broken, pinched, pinched, severed,
+            close_up, forgotten, cut_off, unpainted_page, stopped_short, stopped_short, stopped_short, no_room,
+            no_room, no_room, hairline, stroke_on_contour, hairline, hairline, cover, cover, soft_on_white]
 
 
 def main():

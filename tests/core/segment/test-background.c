@@ -101,6 +101,25 @@ a_corner_cut_off_joins_the_background (void)
   check_background (paper, painted, 1, wanted, 1, 1);
 }
 
+/* Only a painted background may be in a room that the artist has forgotten; an unpainted page is one by intent. */
+static void
+what_a_painted_background_gets_is_remembered (void)
+{
+  static const char *const paper[] = { "1111#22", "11111#2", "111111#", "1111111", NULL };
+  static const char *const painted[] = { ".......", ".AA....", ".......", ".......", NULL };
+  static const char *const wanted[] = { ".....AA", ".AA...A", ".......", ".......", NULL };
+  Sketch                   s;
+
+  sketch_open (&s, paper, painted, 1);
+  NEAR (seed (&s, wanted), 1, 0);
+  CHECK (s.task.unpainted && !s.task.unpainted[1] && s.task.unpainted[2]);
+  sketch_close (&s);
+  sketch_open (&s, ring, figure_only, 1);
+  NEAR (seed (&s, framed), 2, 0);
+  CHECK (!s.task.unpainted);
+  sketch_close (&s);
+}
+
 /* The frame cuts off a figure; with a fifth of the frame it is not the background. */
 static void
 a_figure_that_the_frame_cuts_off_is_not_the_background (void)
@@ -395,6 +414,7 @@ main (void)
   RUN (a_painted_frame_stays_as_it_is);
   RUN (settings_name_the_background_or_turn_it_off);
   RUN (a_corner_cut_off_joins_the_background);
+  RUN (what_a_painted_background_gets_is_remembered);
   RUN (a_figure_that_the_frame_cuts_off_is_not_the_background);
   RUN (a_stroke_that_runs_out_does_not_hold_the_frame);
   RUN (a_label_in_front_of_another_is_no_background);

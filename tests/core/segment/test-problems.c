@@ -165,6 +165,33 @@ regions_open_through_a_gap_are_unreached (void)
     }
 }
 
+/* Seeds of the background alone, in the second of two enclosures, are no stroke of the artist. */
+static void
+what_the_background_got_is_unreached (void)
+{
+  static const char *const rows[] = { "11111#222222", "11111#222222", "11111#222222", NULL };
+  static const char *const painted[] = { "AAA...AAAAAA", "...........A", "......AAAAAA", NULL };
+  static const char *const labels[] = { "AAAAAAAAAAAA", "AAAAAAAAAAAA", "AAAAAAAAAAAA", NULL };
+  bool                     unpainted[] = { false, false, true };
+
+  for (int round = 0; round < 2; round++)
+    {
+      Case c;
+
+      report (&c, rows, painted, labels, 1, false);
+      NEAR (c.problems.n, 0, 0);
+      unpainted[1] = round;
+      c.sketch.task.unpainted = unpainted;
+      CHECK (celd_segment_report (&c.sketch.task, &c.sketch.task.seeds, &c.labelling, &c.labels, NULL, &c.problems)
+             == CELD_OK);
+      NEAR (c.problems.n, 1 + round, 0);
+      CHECK (!c.problems.n || (c.problems.item[round].kind == CELD_PROBLEM_REGION_UNREACHED &&
+                               c.problems.item[round].x > 5));
+      c.sketch.task.unpainted = NULL;
+      case_close (&c);
+    }
+}
+
 /* Paint of labels that the palette does not know was left out before. */
 static void
 unknown_labels_are_ignored (void)
@@ -294,6 +321,7 @@ main (void)
   RUN (a_lost_colour_is_reported_once);
   RUN (closed_regions_without_a_stroke_are_unreached);
   RUN (regions_open_through_a_gap_are_unreached);
+  RUN (what_the_background_got_is_unreached);
   RUN (unknown_labels_are_ignored);
   RUN (overruled_strokes_are_those_of_the_pixels);
   return DONE;
