@@ -80,22 +80,36 @@ celd_op_check_lines (CeldOp *op, const char *pad, const CeldDrawing *drawing)
   return check (op, pad, drawing, FALSE);
 }
 
+/* Compares the scribbles with the drawing. */
+static gboolean
+find_mix_up (CeldOp *op, const char *drawing_pad, const CeldPaint *scribbles, CeldMixUp *mix_up)
+{
+  CeldPaint drawing;
+
+  if (!celd_op_new_paint (op, &drawing))
+    return FALSE;
+  celd_buffer_read_paint (celd_op_buffer (op, drawing_pad), &op->picture, &drawing);
+  return celd_op_try (op, celd_mix_up (&drawing, scribbles, mix_up));
+}
+
 gboolean
 celd_op_check_scribbles (CeldOp *op, const char *drawing_pad, const CeldPaint *scribbles)
 {
-  CeldPaint drawing;
+  CeldMixUp mix_up = CELD_LAYERS_APART;
+  bool      drawn = false;
 
   if (op->settings.flats)
     return TRUE;
   if (!celd_are_scribbles (scribbles))
     return celd_op_fail (op, _ ("The scribbles look like a photograph: scribbles are strokes in flat colours on a "
                                 "blank layer. Choose another layer."));
-  if (!celd_is_grey (scribbles))
-    return TRUE;
-  if (!celd_op_new_paint (op, &drawing))
+  if (!celd_op_try (op, celd_may_be_drawing (scribbles, &drawn)) ||
+      (drawn && !find_mix_up (op, drawing_pad, scribbles, &mix_up)))
     return FALSE;
-  celd_buffer_read_paint (celd_op_buffer (op, drawing_pad), &op->picture, &drawing);
-  return !celd_is_coloured_strokes (&drawing) ||
+  if (mix_up == CELD_LAYERS_SAME)
+    return celd_op_fail (op, _ ("The scribbles are the same picture as the drawing: choose the layer with the strokes, "
+                                "or 'Scribbles are flat colours' if each part has a flat colour of its own."));
+  return mix_up != CELD_LAYERS_EXCHANGED ||
          celd_op_fail (op, _ ("The drawing looks like scribbles, and the scribbles look like a drawing. Exchange them, "
                               "or scribble in clear colours."));
 }

@@ -52,7 +52,7 @@ const char *celd_op_pad_label (CeldOp *op, const char *name);
 gboolean celd_op_check_drawing   (CeldOp *op, const char *pad, const CeldDrawing *drawing);
 /* Refuses a photograph or a painting without lines, for single steps: these have an answer for a blank page, too. */
 gboolean celd_op_check_lines     (CeldOp *op, const char *pad, const CeldDrawing *drawing);
-/* Refuses a photograph, and scribbles that were exchanged with the drawing of that pad. */
+/* Refuses a photograph, and scribbles that were exchanged with the drawing of that pad, or are a copy of it. */
 gboolean celd_op_check_scribbles (CeldOp *op, const char *drawing_pad, const CeldPaint *scribbles);
 /* Refuses colours where there has to be depth or levels. */
 gboolean celd_op_check_grey      (CeldOp *op, const char *pad);

@@ -30,21 +30,41 @@ check_numbers (const CeldPipelineInput *input, guint layers, GError **error)
   return TRUE;
 }
 
+/* Compares the scribbles with the drawing if they may be one. */
+static CeldStatus
+find_mix_up (const CeldPipeline *p, const CeldPipelineInput *input, const CeldPaint *scribbles, CeldMixUp *mix_up)
+{
+  CeldPaint  drawing = { 0 };
+  bool       drawn = false;
+  CeldStatus status = celd_may_be_drawing (scribbles, &drawn);
+
+  if (status == CELD_OK && drawn)
+    status = read_paint (p, input, CELD_LAYER_DRAWING, &drawing);
+  if (status == CELD_OK && drawn)
+    status = celd_mix_up (&drawing, scribbles, mix_up);
+  g_free (drawing.data);
+  return status;
+}
+
 static gboolean
 check_scribbles (const CeldPipeline *p, const CeldPipelineInput *input, GError **error)
 {
-  CeldPaint drawing = { 0 }, scribbles = { 0 };
+  CeldPaint scribbles = { 0 };
+  CeldMixUp mix_up = CELD_LAYERS_APART;
   gboolean  good = celd_pipeline_try (read_paint (p, input, CELD_LAYER_SCRIBBLES, &scribbles), error);
 
   if (good && !celd_are_scribbles (&scribbles))
     good = celd_pipeline_fail (error, _ ("The layer with the scribbles looks like a photograph: scribbles are "
                                          "strokes in flat colours on a blank layer. Choose another layer."));
-  if (good && celd_is_grey (&scribbles))
-    good = celd_pipeline_try (read_paint (p, input, CELD_LAYER_DRAWING, &drawing), error);
-  if (good && drawing.data && celd_is_coloured_strokes (&drawing))
+  if (good)
+    good = celd_pipeline_try (find_mix_up (p, input, &scribbles, &mix_up), error);
+  if (good && mix_up == CELD_LAYERS_SAME)
+    good = celd_pipeline_fail (error, _ ("The layer chosen as scribbles is the same picture as the drawing: choose the "
+                                         "layer with the strokes, or 'Scribbles are flat colours' if each part has a "
+                                         "flat colour of its own."));
+  if (good && mix_up == CELD_LAYERS_EXCHANGED)
     good = celd_pipeline_fail (error, _ ("The layer chosen as the drawing looks like scribbles, and the one chosen "
                                          "as scribbles like a drawing. Exchange them, or scribble in clear colours."));
-  g_free (drawing.data);
   g_free (scribbles.data);
   return good;
 }

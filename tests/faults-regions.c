@@ -76,6 +76,30 @@ clarity_step (const CeldHost *host, Results *r)
   return celd_line_clarity (&drawing, host, &clarity);
 }
 
+/* Four rooms in a coloured drawing, and strokes. */
+static CeldStatus
+mix_up_step (const CeldHost *host, Results *r)
+{
+  enum { SIDE = 64 };
+  static uint8_t drawn[4 * SIDE * SIDE], strokes[4 * SIDE * SIDE];
+  CeldPaint      drawing = { SIDE, SIDE, SIDE, drawn }, scribbles = { SIDE, SIDE, SIDE, strokes };
+  CeldMixUp      mix_up;
+  bool           may_be;
+  CeldStatus     status;
+
+  (void) host;
+  (void) r;
+  for (int i = 0; i < 4 * SIDE * SIDE; i++)
+    {
+      int x = i / 4 % SIDE, y = i / 4 / SIDE;
+
+      drawn[i] = i % 4 == 3 ? 255 : x % 32 == 16 || y % 32 == 16 ? 0 : i % 4 ? 220 : 120;
+      strokes[i] = i % 4 == 3 || (i % 4 == 0 && y % 16 < 6) ? 255 : 0;
+    }
+  status = celd_may_be_drawing (&drawing, &may_be);
+  return status == CELD_OK ? celd_mix_up (&scribbles, &drawing, &mix_up) : status;
+}
+
 static CeldStatus
 contours_step (const CeldHost *host, Results *r)
 {
@@ -370,6 +394,7 @@ const Step region_steps[] = {
   { "coloured lines", coloured_lines_step, NULL, true },
   { "lines of a sprite", sprite_lines_step, NULL, true },
   { "clarity of lines", clarity_step, NULL, true },
+  { "mixed-up layers", mix_up_step, NULL, false },
   { "contours", contours_step, NULL, true },
   { "scribbles", scribbles_step, NULL, true },
   { "lossy scribbles", lossy_step, NULL, true },

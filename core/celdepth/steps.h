@@ -53,10 +53,14 @@ CELD_API CeldStatus celd_contours_bake (const CeldDrawing *drawing, const CeldPa
 /* Whether a layer can be scribbles: strokes in flat colours on a blank layer, or on scanned paper; no photograph
  * can. */
 CELD_API bool celd_are_scribbles (const CeldPaint *paint);
-/* Whether a picture that is not empty is grey, as inks are; whether it is strokes in several clear colours on a blank
- * page.  If the former was given as scribbles and the latter as the drawing, they are exchanged. */
-CELD_API bool celd_is_grey (const CeldPaint *paint);
-CELD_API bool celd_is_coloured_strokes (const CeldPaint *paint);
+/* Whether scribbles may be a drawing, so that it makes sense to compare both: they are grey, or have lines that part
+ * the page. */
+CELD_API CeldStatus celd_may_be_drawing (const CeldPaint *scribbles, bool *may_be);
+
+/* Whether the drawing and the scribbles, which may be a drawing, are what they were given for, or exchanged, or the
+ * same picture. */
+typedef enum { CELD_LAYERS_APART, CELD_LAYERS_EXCHANGED, CELD_LAYERS_SAME } CeldMixUp;
+CELD_API CeldStatus celd_mix_up (const CeldPaint *drawing, const CeldPaint *scribbles, CeldMixUp *mix_up);
 
 /* Whether more than a hundredth of a picture is in colour, by more than JPEG makes of grey: levels and depth are
  * not. */

@@ -9,6 +9,8 @@
  *   scribble-overlaps.c  which are only mixtures of two strokes that cross
  *   scribble-places.c    which pixels each label has
  *   scribbles.c          all steps of reading scribbles: fringes, and the palette
+ *   paint-kinds.c        what a layer can be by its colours
+ *   mix-ups.c            drawing and scribbles exchanged, or a copy of one given as the other
  *   contours.c           virtual contours painted into a drawing
  *   contour-ends.c       joins their open ends to what is near
  *   arrow-layer.c        how opaque the pixels of an arrows layer are; relations painted as one
@@ -49,6 +51,11 @@
 #include <math.h>
 
 /* ------------------------------------------------------------------ scribbles */
+
+/* paint-kinds.c: whether a picture that is not empty is grey, as inks are; whether it is strokes in several clear colours
+ * on a blank page. */
+bool celd_is_grey (const CeldPaint *paint);
+bool celd_is_coloured_strokes (const CeldPaint *paint);
 
 #define CELD_LEAST_DOT  4       /* solid pixels that make a label: a dot of 2 x 2; chosen */
 #define CELD_HARD_COLOURS 32    /* colours that a layer of hard strokes has at most; chosen */

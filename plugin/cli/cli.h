@@ -260,7 +260,7 @@ bool cli_art_read (const char *input, const char *path, bool linear, CliLayers *
 
 /* All print why and what to do instead if they are false. */
 bool cli_check_different_files (const CliOptions *options);                  /* each layer has its own file */
-bool cli_check_not_exchanged   (const CliOptions *options, CliLayers *layers); /* the drawing with the scribbles */
+bool cli_check_not_mixed_up    (const CliOptions *options, CliLayers *layers); /* the drawing and the scribbles */
 bool cli_check_lines           (const char *path, const CeldPlane *ink);     /* there is ink, and paper */
 bool cli_check_drawing         (const char *path, const CeldDrawing *drawing, bool quiet); /* no photograph */
 bool cli_check_scribbles       (const char *path, const CeldPaint *scribbles); /* no photograph */

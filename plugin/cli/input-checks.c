@@ -42,7 +42,7 @@ cli_check_different_files (const CliOptions *options)
   return true;
 }
 
-/* ------------------------------------------------------------------ drawing and scribbles exchanged */
+/* ------------------------------------------------------------------ drawing and scribbles mixed up */
 
 /* Rounds colours to bytes; free data with g_free. */
 static CeldPaint
@@ -56,27 +56,42 @@ bytes_of (const CeldColours *picture)
   return paint;
 }
 
-bool
-cli_check_not_exchanged (const CliOptions *options, CliLayers *layers)
+/* Compares the scribbles with the drawing. */
+static bool
+find_mix_up (const CliOptions *options, CliLayers *layers, CeldMixUp *mix_up)
 {
   CeldColours picture = { 0 };
   CeldPaint   paint = { 0 };
-  bool        good, exchanged;
+  bool        good = cli_art_read (options->input, NULL, false, layers, &picture);
 
-  if (!layers->scribbles.data || !options->scribbles || !celd_is_grey (&layers->scribbles))
-    return true;
-  good = cli_art_read (options->input, NULL, false, layers, &picture);
   if (good)
     {
       paint = bytes_of (&picture);
-      good = cli_check (paint.data ? CELD_OK : CELD_NO_MEMORY);
+      good = cli_check (paint.data ? celd_mix_up (&paint, &layers->scribbles, mix_up) : CELD_NO_MEMORY);
     }
-  exchanged = good && celd_is_coloured_strokes (&paint);
   g_free (picture.data);
   g_free (paint.data);
-  return good && (!exchanged ||
-                  cli_error (_ ("\"%s\" looks like scribbles and \"%s\" like a drawing: exchange them, or scribble in "
-                                "clear colours."), options->input, options->scribbles));
+  return good;
+}
+
+bool
+cli_check_not_mixed_up (const CliOptions *options, CliLayers *layers)
+{
+  CeldMixUp mix_up = CELD_LAYERS_APART;
+  bool      drawn = false;
+
+  if (!layers->scribbles.data || !options->scribbles || options->settings.flats)
+    return true;
+  if (!cli_check (celd_may_be_drawing (&layers->scribbles, &drawn)) ||
+      (drawn && !find_mix_up (options, layers, &mix_up)))
+    return false;
+  if (mix_up == CELD_LAYERS_SAME)
+    return cli_error (_ ("\"%s\" is the same picture as the drawing \"%s\": give a picture of the strokes alone as "
+                         "scribbles, or use --flats if each part has a flat colour of its own."),
+                      options->scribbles, options->input);
+  return mix_up != CELD_LAYERS_EXCHANGED ||
+         cli_error (_ ("\"%s\" looks like scribbles and \"%s\" like a drawing: exchange them, or scribble in clear "
+                       "colours."), options->input, options->scribbles);
 }
 
 /* ------------------------------------------------------------------ no lines */

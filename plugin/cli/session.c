@@ -36,7 +36,7 @@ cli_session_load (CeldSession *session, const CliOptions *options, CliLayers *la
                        cli_layers_read (options->input, options,
                                         CLI_SCRIBBLES | CLI_ARROWS | CLI_CONTOURS | CLI_CORRECTIONS | CLI_HIDDEN,
                                         layers) &&
-                       cli_check_not_exchanged (options, layers) &&
+                       cli_check_not_mixed_up (options, layers) &&
                        (!layers->scribbles.data || options->settings.flats ||
                         cli_check_scribbles (options->scribbles ? options->scribbles : options->input,
                                              &layers->scribbles)) &&

@@ -400,10 +400,21 @@ class Nonsense(Test):
         on_white.save(self.path('white-scribbles.png'))
         drawing().convert('RGBA').save(self.path('other.png'))
         self.fails('popup', 'white-scribbles.png', '--scribbles', 'other.png', '--depth', 'd.png', naming='exchange them')
+        coloured = Image.new('RGB', (WIDTH, HEIGHT), (220, 235, 255))
+        for box, fill in ([30, 15, 85, 57], (250, 230, 120)), ([60, 25, 100, 50], (170, 220, 150)):
+            ImageDraw.Draw(coloured).rectangle(box, fill=fill, outline=(60, 30, 20), width=2)
+        coloured.save(self.path('coloured.png'))
+        self.fails('popup', 'scribbles.png', '--scribbles', 'coloured.png', '--depth', 'd.png', naming='exchange them')
+        self.celdepth('segment', 'coloured.png', '--scribbles', 'scribbles.png', '--labels', 'l.png')
         grey = Image.new('RGBA', (WIDTH, HEIGHT))
         ImageDraw.Draw(grey).line([(16, 20), (32, 22)], fill=(90, 90, 90, 255), width=3)
         grey.save(self.path('grey.png'))
         self.celdepth('segment', 'drawing.png', '--scribbles', 'grey.png', '--labels', 'l.png')
+
+    def test_copy_of_the_drawing(self):
+        drawing().convert('RGBA').save(self.path('copy.png'))
+        self.fails('popup', 'drawing.png', '--scribbles', 'copy.png', '--depth', 'd.png',
+                   naming='"copy.png" is the same picture as the drawing "drawing.png"')
 
     def test_one_file_twice(self):
         twice = ['--scribbles', 'scribbles.png', '--arrows', os.path.join('.', 'scribbles.png')]

@@ -91,6 +91,22 @@ paint_line (uint8_t *paint, int x0, int y0, int x1, int y1, int thickness, uint3
         }
 }
 
+/* The page with a fill in each disc, R'G'B'. */
+static inline void
+colour_page (float *pixels)
+{
+  static const float fill[3][3] = { { 1, 0.9f, 0.5f }, { 0.6f, 0.9f, 0.7f }, { 0.9f, 0.95f, 1 } };
+
+  for (int i = 0; i < PIXELS; i++)
+    {
+      float x = (float) (i % WIDTH) + 0.5f, y = (float) (i / WIDTH) + 0.5f;
+      int   disc = hypotf (x - 45, y - 40) < 24 ? 0 : hypotf (x - 80, y - 40) < 22 ? 1 : 2;
+
+      for (int c = 0; c < 3; c++)
+        pixels[3 * i + c] = page_luma[i] * fill[disc][c];
+    }
+}
+
 /* A buffer of the page's size that holds pixels of one format, kept in another. */
 static inline GeglBuffer *
 page_buffer (const char *kept, const char *format, const void *pixels)

@@ -113,7 +113,30 @@ static void
 exchanged_layers_are_noticed (void)
 {
   for (size_t i = 0; i < G_N_ELEMENTS (finders); i++)
-    CHECK (refuses (finders[i], (Pads) { { scribbles, drawing } }, "Exchange them"));
+    {
+      CHECK (refuses (finders[i], (Pads) { { scribbles, drawing } }, "Exchange them"));
+      CHECK (refuses (finders[i], (Pads) { { drawing, drawing } }, "The scribbles are the same picture"));
+    }
+}
+
+/* Fills do not make scribbles of a drawing, nor a drawing of what has the same colours. */
+static void
+coloured_drawings_are_no_scribbles (void)
+{
+  static float pixels[3 * PIXELS];
+  GeglBuffer  *coloured;
+
+  colour_page (pixels);
+  coloured = page_buffer ("R'G'B' u8", "R'G'B' float", pixels);
+  for (size_t i = 0; i < G_N_ELEMENTS (finders); i++)
+    {
+      CHECK (refuses (finders[i], (Pads) { { scribbles, coloured } }, "Exchange them"));
+      CHECK (refuses (finders[i], (Pads) { { coloured, coloured } }, "The scribbles are the same picture"));
+      be_quiet ();
+      operate (finders[i], (Pads) { { coloured, scribbles, arrows } }, "RGBA float", result, NULL);
+      CHECK (times_said == 0 && warnings == 0);
+    }
+  g_object_unref (coloured);
 }
 
 static void
@@ -238,6 +261,7 @@ main (int argc, char **argv)
   RUN (photographs_have_no_steps);
   RUN (photographs_are_no_scribbles);
   RUN (exchanged_layers_are_noticed);
+  RUN (coloured_drawings_are_no_scribbles);
   RUN (blank_pages_have_no_depth);
   RUN (flats_need_no_lines);
   RUN (colours_are_no_depth);

@@ -295,7 +295,7 @@ other_layers_than_meant_are_refused (void)
 {
   static float      grey[PIXELS], colour[3 * PIXELS];
   CeldPipelineInput input = page_input ();
-  GeglBuffer       *surface, *photograph;
+  GeglBuffer       *surface, *photograph, *coloured;
 
   for (int i = 0; i < 3 * PIXELS; i++)
     {
@@ -314,6 +314,15 @@ other_layers_than_meant_are_refused (void)
   input.layer[CELD_LAYER_DRAWING].buffer = scribbles;
   input.layer[CELD_LAYER_SCRIBBLES].buffer = drawing;
   CHECK (refused (&input, "Exchange them"));
+  colour_page (colour);
+  coloured = page_buffer ("R'G'B' u8", "R'G'B' float", colour);
+  input.layer[CELD_LAYER_SCRIBBLES].buffer = coloured;
+  CHECK (refused (&input, "Exchange them"));
+  input.layer[CELD_LAYER_DRAWING].buffer = coloured;
+  CHECK (refused (&input, "is the same picture as the drawing"));
+  input.layer[CELD_LAYER_SCRIBBLES].buffer = scribbles;
+  CHECK (!refused (&input, "same picture") && !refused (&input, "Exchange"));
+  g_object_unref (coloured);
   g_object_unref (surface);
   g_object_unref (photograph);
 }

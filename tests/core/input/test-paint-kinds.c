@@ -3,7 +3,7 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "check.h"
-#include "celdepth.h"
+#include "input/input.h"
 
 enum { SIDE = 100 };
 

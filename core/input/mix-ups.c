@@ -1,0 +1,211 @@
+/* Layers that were mixed up: the drawing exchanged with its scribbles, or a copy of it given as scribbles.
+ *
+ * The lines of a drawing part its page into rooms, while strokes leave it in one piece.  Lines are what is dark in the
+ * lightest channel, as black, brown and dark shades are; strokes of clear colours are as light there as paper.  On a
+ * dark page they are what is light.  In the other layer, which may be drawn with a red pencil, all that is narrow
+ * counts as a line.  Of 187 drawings, grey and coloured, 185 have at least three rooms, and their scribbles, hard,
+ * soft, and whole fills, nearly all one or two.
+ *
+ * A page is looked at in cells, each as dark as its darkest pixel, so that thin lines stay whole: what this takes does
+ * not depend on the size of the page.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "base/base.h"
+#include "input/input.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#define LONGER_SIDE   256  /* cells along the longer side of a page, at most (chosen) */
+#define CELL_SAMPLES  4    /* pixels looked at along each side of a large cell (chosen) */
+#define LINE_RADIUS   3    /* cells: half the width of the broadest lines (chosen) */
+#define CELL_CONTRAST 48   /* of 255: of a line with what is on both sides; chosen */
+#define ROOM_SHARE    2000 /* a room is at least 1 / this of the page (chosen) */
+#define ROOM_SIDE     64   /* pixels; smaller pages have no rooms that tell anything (chosen) */
+#define LEAST_ROOMS   3    /* of a drawing that was given as scribbles (measured, see above), */
+#define MORE_ROOMS    3    /* and how many times as many as there are in the other layer (measured) */
+#define STORED        48   /* of 255: how much a channel changes when a picture is stored with loss, at most; chosen */
+#define SAME_SHARE    1000 /* of the cells of a copy at most 1 / this differ by more (chosen), */
+#define SAME_DRAWN    10   /* and of those where something is drawn at most 1 / this (chosen) */
+
+/* ------------------------------------------------------------------ cells */
+
+/* How light a pixel is, as if on white paper: by its lightest channel, or by the darkest one. */
+static uint8_t
+lightness (const uint8_t *p, bool dark_page, bool darkest)
+{
+  uint8_t most = p[0] > p[1] ? p[0] : p[1], least = p[0] < p[1] ? p[0] : p[1];
+
+  if (p[3] < 128)
+    return 255;
+  most  = p[2] > most ? p[2] : most;
+  least = p[2] < least ? p[2] : least;
+  return (uint8_t) (dark_page ? 255 - most : darkest ? least : most);
+}
+
+static bool
+is_dark_page (const CeldPaint *paint, int step)
+{
+  size_t dark = 0, all = 0;
+
+  for (int y = 0; y < paint->height; y += step)
+    for (int x = 0; x < paint->width; x += step, all++)
+      dark += lightness (CELD_RGBA (paint, x, y), false, false) < 128;
+  return 2 * dark > all;
+}
+
+/* Makes the cells of a page. */
+static CeldStatus
+cells_new (const CeldPaint *paint, bool darkest, CeldMask *cells)
+{
+  int  longer = paint->width > paint->height ? paint->width : paint->height;
+  int  side = (longer + LONGER_SIDE - 1) / LONGER_SIDE, step = side > CELL_SAMPLES ? side / CELL_SAMPLES : 1;
+  bool dark_page = is_dark_page (paint, step);
+
+  *cells = (CeldMask) { .width = (paint->width + side - 1) / side, .height = (paint->height + side - 1) / side };
+  cells->stride = (size_t) cells->width;
+  cells->data = celd_alloc (cells->stride * (size_t) cells->height, 1);
+  if (!cells->data)
+    return CELD_NO_MEMORY;
+  memset (cells->data, 255, cells->stride * (size_t) cells->height);
+  for (int y = 0; y < paint->height; y += step)
+    for (int x = 0; x < paint->width; x += step)
+      {
+        uint8_t  value = lightness (CELD_RGBA (paint, x, y), dark_page, darkest);
+        uint8_t *cell = &CELD_AT (cells, x / side, y / side);
+
+        *cell = value < *cell ? value : *cell;
+      }
+  return CELD_OK;
+}
+
+/* ------------------------------------------------------------------ rooms */
+
+/* Labels what is no line 1, and lines 0; `labels` is tight. */
+static CeldStatus
+find_lines (const CeldMask *cells, CeldLabels *labels)
+{
+  CeldMask   closed = *cells;
+  void      *work = celd_alloc (celd_erosion_work (cells->width, LINE_RADIUS), 1);
+  size_t     n = cells->stride * (size_t) cells->height;
+  CeldStatus status = CELD_NO_MEMORY;
+
+  closed.data = celd_alloc (n, 1);
+  if (work && closed.data)
+    {
+      celd_close_bytes (cells, LINE_RADIUS, work, &closed);
+      for (size_t i = 0; i < n; i++)
+        labels->data[i] = closed.data[i] - cells->data[i] <= CELL_CONTRAST;
+      status = CELD_OK;
+    }
+  celd_free (work);
+  celd_free (closed.data);
+  return status;
+}
+
+static CeldStatus
+count_rooms (const CeldPaint *paint, bool darkest, size_t *n_rooms)
+{
+  CeldMask       cells = { 0 };
+  CeldLabels     labels = { 0 };
+  CeldComponent *part = NULL;
+  size_t         n = 0;
+  CeldStatus     status = CELD_OK;
+
+  *n_rooms = 0;
+  if (paint->width < ROOM_SIDE || paint->height < ROOM_SIDE)
+    return CELD_OK;
+  status = cells_new (paint, darkest, &cells);
+  if (status == CELD_OK)
+    status = celd_labels_new (cells.width, cells.height, &labels);
+  if (status == CELD_OK)
+    status = find_lines (&cells, &labels);
+  if (status == CELD_OK)
+    status = celd_components (&labels, 0, false, NULL, &labels, &part, &n);
+  for (size_t k = 0; k < n && status == CELD_OK; k++)
+    *n_rooms += ROOM_SHARE * part[k].area >= cells.stride * (size_t) cells.height;
+  celd_free (part);
+  celd_free (labels.data);
+  celd_free (cells.data);
+  return status;
+}
+
+/* ------------------------------------------------------------------ copies */
+
+/* Whether nearly all cells are the same; by the darkest channel something must be drawn, too. */
+static CeldStatus
+compare (const CeldPaint *a, const CeldPaint *b, bool darkest, bool *same)
+{
+  CeldMask   of_a = { 0 }, of_b = { 0 };
+  size_t     n = 0, differing = 0, drawn = 0;
+  CeldStatus status = cells_new (a, darkest, &of_a);
+
+  if (status == CELD_OK)
+    status = cells_new (b, darkest, &of_b);
+  if (status == CELD_OK)
+    n = of_a.stride * (size_t) of_a.height;
+  for (size_t i = 0; i < n; i++)
+    {
+      differing += abs (of_a.data[i] - of_b.data[i]) > STORED;
+      drawn += of_a.data[i] < 255 - STORED || of_b.data[i] < 255 - STORED;
+    }
+  *same = SAME_SHARE * differing <= n && SAME_DRAWN * differing <= drawn && (drawn || !darkest);
+  celd_free (of_a.data);
+  celd_free (of_b.data);
+  return status;
+}
+
+static CeldStatus
+are_same (const CeldPaint *a, const CeldPaint *b, bool *same)
+{
+  CeldStatus status;
+
+  *same = a->width == b->width && a->height == b->height;
+  status = *same ? compare (a, b, false, same) : CELD_OK;
+  return status == CELD_OK && *same ? compare (a, b, true, same) : status;
+}
+
+/* ------------------------------------------------------------------ what was mixed up */
+
+CeldStatus
+celd_may_be_drawing (const CeldPaint *scribbles, bool *may_be)
+{
+  size_t     rooms = 0;
+  bool       grey = celd_is_grey (scribbles);
+  CeldStatus status = grey ? CELD_OK : count_rooms (scribbles, false, &rooms);
+
+  *may_be = grey || rooms > 1;
+  return status;
+}
+
+/* Whether the drawing is in colour and parted less than the scribbles: far less, unless it is plainly strokes, and the
+ * scribbles are in grey. */
+static CeldStatus
+compare_rooms (const CeldPaint *drawing, const CeldPaint *scribbles, bool *exchanged)
+{
+  bool       plain = celd_is_grey (scribbles) && celd_is_coloured_strokes (drawing);
+  size_t     rooms = 0, dark = 0, narrow = 0;
+  CeldStatus status = count_rooms (scribbles, false, &rooms);
+
+  if (status == CELD_OK)
+    status = count_rooms (drawing, false, &dark);
+  if (status == CELD_OK)
+    status = count_rooms (drawing, true, &narrow);
+  *exchanged = plain ? dark <= rooms
+                     : rooms >= LEAST_ROOMS && MORE_ROOMS * (dark > narrow ? dark : narrow) <= rooms;
+  return status;
+}
+
+CeldStatus
+celd_mix_up (const CeldPaint *drawing, const CeldPaint *scribbles, CeldMixUp *mix_up)
+{
+  bool       same = false, exchanged = false;
+  CeldStatus status = are_same (drawing, scribbles, &same);
+
+  if (status == CELD_OK && !same && !celd_is_grey (drawing))
+    status = compare_rooms (drawing, scribbles, &exchanged);
+  if (status == CELD_OK)
+    *mix_up = same ? CELD_LAYERS_SAME : exchanged ? CELD_LAYERS_EXCHANGED : CELD_LAYERS_APART;
+  return status;
+}
