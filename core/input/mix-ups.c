@@ -3,7 +3,7 @@
  * The lines of a drawing part its page into rooms, while strokes leave it in one piece.  Lines are what is dark in the
  * lightest channel, as black, brown and dark shades are; strokes of clear colours are as light there as paper.  On a
  * dark page they are what is light.  In the other layer, which may be drawn with a red pencil, all that is narrow
- * counts as a line.  Of 187 drawings, grey and coloured, 185 have at least three rooms, and their scribbles, hard,
+ * counts as a line.  Of 156 drawings, grey and coloured, 155 have at least three rooms, and their scribbles, hard,
  * soft, and whole fills, nearly all one or two.
  *
  * A page is looked at in cells, each as dark as its darkest pixel, so that thin lines stay whole: what this takes does
