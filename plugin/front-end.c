@@ -54,9 +54,9 @@ const CeldMainSetting celd_main_settings[CELD_N_MAIN_SETTINGS] = {
   { "light-elevation", "Light", 0 }, { "ambient", "Light", 0 }, { "specular", "Light", 0 },
   { "rim-light", "Light", 0 }, { "bulge", "Light", 0 }, { "bevel", "Light", 0 },
   { "shadow-strength", "Shadows", 0 }, { "shadow-size", "Shadows", 0 }, { "shadow-offset", "Shadows", 0 },
-  { "ink", N_ ("How layers are read"), 0 }, { "close-gaps", "How layers are read", 0 },
-  { "flats", "How layers are read", 0 }, { "expansion", "How layers are read", 0 },
-  { "suggest", "How layers are read", 0 },
+  { "ink", N_ ("How layers are read"), 0 }, { "arrow-style", "How layers are read", 0 },
+  { "close-gaps", "How layers are read", 0 }, { "flats", "How layers are read", 0 },
+  { "expansion", "How layers are read", 0 }, { "suggest", "How layers are read", 0 },
 };
 
 /* ------------------------------------------------------------------ numbers in dialogs */

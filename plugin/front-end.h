@@ -41,7 +41,7 @@ gboolean celd_pictures_read (const char *text, guint *wanted, GError **error);
 /* The settings of core that a short dialog shows, under headings; `choices` is the number of choices, 0: all. */
 typedef struct { const char *name, *heading; int choices; } CeldMainSetting;
 
-#define CELD_N_MAIN_SETTINGS 17
+#define CELD_N_MAIN_SETTINGS 18
 extern const CeldMainSetting celd_main_settings[CELD_N_MAIN_SETTINGS];
 
 /* How dialogs show a number: multiplied by this, with so many digits after the point, and this unit; NULL: it has

@@ -215,6 +215,17 @@
   (check #t "all checks were run")
   (close-output-port log))
 
+;; How arrows are drawn is kept with an image.  Arrows with heads do not fade, so that all parts have one level.
+(define (check-arrow-style examples)
+  (let* ((image (make-image examples PRECISION-U8-GAMMA '("Drawing" "Scribbles" "Arrows")))
+         (drawing (car (gimp-image-get-active-layer image)))
+         (level (lambda (group) (vector-ref (cadr (gimp-drawable-get-pixel (car (children group)) 762 764)) 0))))
+    (check (< (level (popup image "levels" "" "")) 255) "arrows with heads are read")
+    (check (= 255 (level (popup image "levels" "arrow-style=fade" ""))) "and not as arrows that fade")
+    (check (= 255 (level (car (plug-in-celdepth-popup RUN-WITH-LAST-VALS image drawing "" "" ""))))
+           "the style of arrows is kept with the image")
+    (gimp-image-delete image)))
+
 ;; Layers that were chosen, here as GIMP 3 keeps it with an image, count whatever they are called.
 (define (check-chosen-layers examples)
   (let* ((image (make-image examples PRECISION-U8-GAMMA '("art" "strokes of mine" "notes")))
@@ -251,6 +262,7 @@
   (check-masks examples out)
   (check-locks examples out)
   (check-flats examples)
+  (check-arrow-style examples)
   (check-bad-input examples)
   (check-chosen-layers examples)
   (let ((image (make-image examples PRECISION-U8-GAMMA '("Drawing" "Scribbles" "Arrows"))))

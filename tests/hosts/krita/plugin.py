@@ -311,6 +311,18 @@ def check_presets():
     check(panel.presets.currentText() == 'Cel animation', 'and set back')
 
 
+def check_arrow_style():
+    """How arrows are drawn is chosen in the panel.  Arrows with heads do not fade, so that all parts have one level."""
+    panel = docker.Docker()
+    panel.show_choices(popup.Choices.usual())
+    panel.fields['arrow-style'].set('fade')
+    document = make_document()
+    good, text, _ = run(document, panel.choices()._replace(pictures=['levels']))
+    levels = pixels(by_name(document, 'Levels'), document.width(), document.height()) if good else np.zeros((1, 1, 4))
+    check(good and np.unique(levels[..., 0]).tolist() == [0, 1], f'arrows with heads are read as arrows that fade {text}')
+    document.close()
+
+
 def german(_arguments=None):
     try:
         check_german()
@@ -331,6 +343,7 @@ def main(_arguments=None):
         check_bad_input()
         check_set_up()
         check_presets()
+        check_arrow_style()
         keep_start()
         check(True, 'all checks were run')
     except Exception:  # pylint: disable=broad-except
