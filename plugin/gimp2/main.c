@@ -167,6 +167,7 @@ query (void)
                           "The authors of celdepth", "LGPL-3.0-or-later", "2026", N_ ("_Pop-up..."), "*", GIMP_PLUGIN,
                           G_N_ELEMENTS (arguments), G_N_ELEMENTS (results), arguments, results);
   gimp_plugin_menu_register (PROCEDURE, "<Image>/Cartoon Depth");
+  gimp_plugin_icon_register (PROCEDURE, GIMP_ICON_TYPE_IMAGE_FILE, (const guint8 *) CELD_ICON_FILE);
 }
 
 const GimpPlugInInfo PLUG_IN_INFO = { NULL, NULL, query, run };

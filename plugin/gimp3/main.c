@@ -28,6 +28,16 @@ query_procedures (GimpPlugIn *plug_in)
   return names;
 }
 
+/* By its file: themes find a name only in folders that they know, and in the system only when their caches are new. */
+static void
+set_icon (GimpProcedure *procedure)
+{
+  GFile *file = g_file_new_for_path (CELD_ICON_FILE);
+
+  gimp_procedure_set_icon_file (procedure, file);
+  g_object_unref (file);
+}
+
 static GimpProcedure *
 create_procedure (GimpPlugIn *plug_in, const char *name)
 {
@@ -44,6 +54,7 @@ create_procedure (GimpPlugIn *plug_in, const char *name)
                                                           GIMP_PROCEDURE_SENSITIVE_NO_DRAWABLES);
         gimp_procedure_set_menu_label (procedure, _ (p->menu_label));
         gimp_procedure_add_menu_path (procedure, MENU);
+        set_icon (procedure);
         gimp_procedure_set_documentation (procedure, _ (p->blurb), _ (p->help), NULL);
         gimp_procedure_set_attribution (procedure, "The authors of celdepth", "LGPL-3.0-or-later", "2026");
         p->add_arguments (procedure);

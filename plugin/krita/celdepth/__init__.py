@@ -10,7 +10,10 @@
 
 SPDX-License-Identifier: LGPL-3.0-or-later
 """
+import os
+
 from krita import DockWidgetFactory, DockWidgetFactoryBase, Extension, Krita
+from PyQt5.QtGui import QIcon
 from PyQt5.QtWidgets import QDockWidget
 
 from .docker import Docker
@@ -18,6 +21,7 @@ from .language import _
 
 DOCKER = 'celdepth'
 MENU = 'tools/scripts'
+ICON = os.path.join(os.path.dirname(__file__), 'celdepth.svg')
 
 
 def show_docker() -> Docker:
@@ -39,6 +43,8 @@ class CartoonDepth(Extension):
         update.triggered.connect(lambda: show_docker().start())
         layers = window.createAction('celdepth_set_up_layers', _('Cartoon Depth: set up layers'), MENU)
         layers.triggered.connect(lambda: show_docker().set_up_layers())
+        for action in (update, layers):
+            action.setIcon(QIcon(ICON))
 
 
 Krita.instance().addExtension(CartoonDepth(Krita.instance()))

@@ -5,16 +5,27 @@
 #
 # SPDX-License-Identifier: LGPL-3.0-or-later
 import os
+import re
 
 import gi
 gi.require_version('Gegl', '0.4')
 gi.require_version('Gimp', '3.0')
-from gi.repository import Gegl, Gimp  # noqa: E402
+from gi.repository import Gegl, Gimp, Gio  # noqa: E402
 import numpy as np  # noqa: E402
 from people import (ERRORS, EXAMPLES, OUT, PICTURES, PRECISIONS, QUIET, Image, all_layers, by_name, check,  # noqa: E402
                     compare, file, open_people, pixels, pop_up, reference, results, run)
 
 # ------------------------------------------------------------------ the checks
+
+def entries_of_the_menu_have_an_icon():
+    """As GIMP keeps what it has asked the plug-in for, a line each."""
+    with open(os.path.join(Gimp.directory(), 'pluginrc'), encoding='utf-8', errors='replace') as f:
+        kept = f.read().split('(proc-def "')
+    icon = re.compile(r'\(icon image-file -?\d+ "([^"]+)"\)')
+    icons = [icon.search(entry) for entry in kept if entry.startswith('plug-in-celdepth-')]
+    found = {os.path.exists(Gio.File.new_for_uri(each[1]).get_path()) if each else False for each in icons}
+    check(len(icons) == 9 and found == {True}, f'{len(icons)} entries have an icon')
+
 
 def results_are_those_of_the_command():
     names = {8: ('Drawing', 'Scribbles', 'Arrows'), 16: ('zeichnung', 'KRITZELEIEN', 'Pfeile'),
@@ -408,6 +419,7 @@ def set_up_layers_makes_what_is_missing():
 
 
 Gegl.init(None)
+entries_of_the_menu_have_an_icon()
 results_are_those_of_the_command()
 a_second_run_updates_in_place()
 locks_are_kept()

@@ -68,6 +68,7 @@ class Checks(Extension):
         names = ('celdepth_update', 'celdepth_set_up_layers')
         entries = [krita.action(name).text().replace('&', '') for name in names]
         self.check(entries == ['Cartoon Depth: update', 'Cartoon Depth: set up layers'], f'entries: {entries}')
+        self.check(all(not krita.action(name).icon().pixmap(32).isNull() for name in names), 'which have an icon')
         krita.action('celdepth_update').trigger()
         self.check(docker.isVisible() and docker.run, 'the entry shows the panel and begins a run')
         yield lambda: not docker.run
