@@ -27,15 +27,31 @@ save_depth (const CeldPlane *depth, const char *path, GError **error)
 gboolean
 celd_pipeline_save (CeldPipeline *p, CeldPicture picture, const char *path, GError **error)
 {
-  CeldPlane  plane;
-  CeldStatus status = picture == CELD_PICTURE_LEVELS ? celd_session_levels (p->session, NULL, &plane, NULL)
-                                                     : celd_session_depth (p->session, NULL, &plane, NULL);
+  CeldPlane plane;
 
-  return celd_pipeline_try (status, error) && save_depth (&plane, path, error);
+  return celd_pipeline_try (celd_pipeline_ask_depth (p, picture, &plane), error) && save_depth (&plane, path, error);
+}
+
+/* Says so if most of the layer is something else than the picture, as when the settings were others. */
+static gboolean
+refine (CeldPipeline *p, CeldPicture picture, const CeldPipelineLayer *layer, CeldPlane *plane, GError **error)
+{
+  const GeglRectangle *extent = gegl_buffer_get_extent (layer->buffer);
+  gsize                refined = 0, all = (gsize) extent->width * (gsize) extent->height;
+
+  if (!celd_pipeline_try (celd_pipeline_refine (p, picture, layer, plane, &refined), error))
+    return FALSE;
+  g_free (p->note);
+  p->note = 2 * refined < all
+              ? g_strdup (_ ("Most of the layer is not what the drawing and its layers make now. It was exported as it "
+                             "is, with at most 256 steps. For more let it be made anew from the drawing."))
+              : NULL;
+  return TRUE;
 }
 
 gboolean
-celd_pipeline_save_layer (const CeldPipelineLayer *layer, int width, int height, const char *path, GError **error)
+celd_pipeline_save_layer (CeldPipeline *p, CeldPicture picture, const CeldPipelineLayer *layer, int width, int height,
+                          const char *path, GError **error)
 {
   CeldPlane     plane = { width, height, (size_t) width,
                           g_try_malloc_n ((gsize) width * (gsize) height, sizeof (float)) };
@@ -47,7 +63,7 @@ celd_pipeline_save_layer (const CeldPipelineLayer *layer, int width, int height,
     {
       gegl_buffer_get (layer->buffer, &image, 1, babl_format ("Y float"), plane.data, GEGL_AUTO_ROWSTRIDE,
                        GEGL_ABYSS_NONE);
-      good = save_depth (&plane, path, error);
+      good = (!p || refine (p, picture, layer, &plane, error)) && save_depth (&plane, path, error);
     }
   g_free (plane.data);
   return good;

@@ -60,6 +60,14 @@ gboolean celd_pipeline_check_layers (CeldPipeline *p, const CeldPipelineInput *i
 /* TRUE if a layer can be depth or levels, which are grey. */
 gboolean celd_pipeline_check_grey (const CeldPipelineLayer *layer, GError **error);
 
+/* The numbers of CELD_PICTURE_LEVELS or CELD_PICTURE_DEPTH, which was made; the session's. */
+CeldStatus celd_pipeline_ask_depth (CeldPipeline *p, CeldPicture picture, CeldPlane *numbers);
+
+/* Gives `numbers`, those of a layer in an image, the precision that the layer has no bits for: where the layer has what
+ * the picture, which was made, is in its format, they become those of the picture.  Says how many. */
+CeldStatus celd_pipeline_refine (CeldPipeline *p, CeldPicture picture, const CeldPipelineLayer *layer,
+                                 CeldPlane *numbers, gsize *refined);
+
 /* Replaces a picture (data may be NULL) by a copy of the art. */
 CeldStatus celd_pipeline_copy_art (const CeldPipeline *p, CeldColours *copy);
 

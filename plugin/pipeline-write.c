@@ -7,6 +7,8 @@
 #include "buffers.h"
 #include "problems.h"
 
+#include <math.h>
+
 /* ------------------------------------------------------------------ writing pictures */
 
 static void
@@ -120,6 +122,68 @@ celd_pipeline_write_preview (CeldPipeline *p, CeldPipelineProgress progress, gpo
     gegl_buffer_set (buffer, GEGL_RECTANGLE (0, 0, quarter.width, quarter.height), 0, babl_format ("Y float"),
                      quarter.data, (int) (quarter.stride * sizeof (float)));
   return celd_pipeline_try (status, error);
+}
+
+/* ------------------------------------------------------------------ precision */
+
+#define SAME 1e-5f /* numbers that differ by conversion alone; 8 bits have steps of 3e-4 at least */
+
+CeldStatus
+celd_pipeline_ask_depth (CeldPipeline *p, CeldPicture picture, CeldPlane *numbers)
+{
+  return picture == CELD_PICTURE_LEVELS ? celd_session_levels (p->session, NULL, numbers, NULL)
+                                        : celd_session_depth (p->session, NULL, numbers, NULL);
+}
+
+/* The numbers of a picture as a format keeps them. */
+static CeldStatus
+round_picture (CeldPipeline *p, CeldPicture picture, const Babl *format, CeldPlane *rounded)
+{
+  GeglRectangle image = { 0, 0, p->width, p->height };
+  GeglBuffer   *buffer = gegl_buffer_new (&image, format);
+  CeldStatus    status = write_picture (p, picture, buffer);
+
+  gegl_buffer_get (buffer, &image, 1, babl_format ("Y float"), rounded->data, GEGL_AUTO_ROWSTRIDE, GEGL_ABYSS_NONE);
+  g_object_unref (buffer);
+  return status;
+}
+
+/* In the part of the image that the layer covers. */
+static gsize
+refine_part (const CeldPlane *exact, const CeldPlane *rounded, const GeglRectangle *part, CeldPlane *numbers)
+{
+  gsize refined = 0;
+
+  for (int y = part->y; y < part->y + part->height; y++)
+    for (int x = part->x; x < part->x + part->width; x++)
+      {
+        float *number = &numbers->data[(gsize) y * numbers->stride + (gsize) x];
+
+        if (fabsf (*number - rounded->data[(gsize) y * rounded->stride + (gsize) x]) > SAME)
+          continue;
+        *number = exact->data[(gsize) y * exact->stride + (gsize) x];
+        refined++;
+      }
+  return refined;
+}
+
+CeldStatus
+celd_pipeline_refine (CeldPipeline *p, CeldPicture picture, const CeldPipelineLayer *layer, CeldPlane *numbers,
+                      gsize *refined)
+{
+  GeglRectangle part = *gegl_buffer_get_extent (layer->buffer);
+  CeldPlane     exact, rounded = celd_pipeline_new_plane (p);
+  CeldStatus    status = rounded.data ? celd_pipeline_ask_depth (p, picture, &exact) : CELD_NO_MEMORY;
+
+  part.x += layer->x;
+  part.y += layer->y;
+  gegl_rectangle_intersect (&part, &part, GEGL_RECTANGLE (0, 0, p->width, p->height));
+  if (status == CELD_OK)
+    status = round_picture (p, picture, gegl_buffer_get_format (layer->buffer), &rounded);
+  if (status == CELD_OK)
+    *refined = refine_part (&exact, &rounded, &part, numbers);
+  g_free (rounded.data);
+  return status;
 }
 
 /* ------------------------------------------------------------------ layers */

@@ -100,9 +100,11 @@ gboolean celd_pipeline_write_turned (CeldPipeline *pipeline, int frame, int fram
 
 /* Writes CELD_PICTURE_LEVELS or CELD_PICTURE_DEPTH that was made to a file, as celd_io_write_depth does. */
 gboolean celd_pipeline_save (CeldPipeline *pipeline, CeldPicture picture, const char *path, GError **error);
-/* Writes a layer with levels or depth as they are, farthest outside it, as celd_io_write_depth does. */
-gboolean celd_pipeline_save_layer (const CeldPipelineLayer *layer, int width, int height, const char *path,
-                                   GError **error);
+/* Writes a layer with levels or depth, farthest outside it, as celd_io_write_depth does.  Of a layer with few bits the
+ * numbers get the precision of the picture, which was made, wherever they are rounded from it; pipeline NULL: none
+ * do. */
+gboolean celd_pipeline_save_layer (CeldPipeline *pipeline, CeldPicture picture, const CeldPipelineLayer *layer,
+                                   int width, int height, const char *path, GError **error);
 /* Makes a model, or with CELD_MESH_HEIGHTFIELD one surface, and writes it to a file, as celd_io_write_meshes does.
  * With CELD_MESH_AUTO parts are solid in .stl, and else surfaces. */
 gboolean celd_pipeline_save_model (CeldPipeline *pipeline, const char *path, CeldPipelineProgress progress,

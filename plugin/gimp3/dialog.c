@@ -138,9 +138,9 @@ fill_pictures (GimpProcedureDialog *dialog, GimpImage *image)
   gtk_flow_box_set_max_children_per_line (GTK_FLOW_BOX (flow), 2);
   gtk_flow_box_set_homogeneous (GTK_FLOW_BOX (flow), TRUE);
   gimp_procedure_dialog_get_label (dialog, "pictures-title", _ ("Make"), FALSE, FALSE);
-  gimp_procedure_dialog_get_label (dialog, "few-bits", _ ("<small>The image has 8 bits, so that depth has at most 256 "
-                                                          "steps.\nFor more: Image &gt; Encoding, 32-bit floating "
-                                                          "point.</small>"), TRUE,
+  gimp_procedure_dialog_get_label (dialog, "few-bits", _ ("<small>The image has 8 bits, so that its layer of depth has "
+                                                          "at most 256 steps.\nFor more: Export depth, or Image &gt; "
+                                                          "Encoding, 32-bit floating point.</small>"), TRUE,
                                    FALSE);
   if (celd_image_has_few_bits (image))
     gimp_procedure_dialog_fill_box (dialog, "pictures", "pictures-flow", "few-bits", NULL);
@@ -282,12 +282,7 @@ fill_export (GimpProcedureDialog *dialog, GimpImage *image)
                     celd_results_find (image, celd_pictures[CELD_PICTURE_LEVELS].argument);
 
   gimp_procedure_dialog_get_label (dialog, "depth-title", _ ("Export"), FALSE, FALSE);
-  gimp_procedure_dialog_get_label (dialog, "few-steps", _ ("<small>The image has 8 bits, so that depth in its layers "
-                                                           "has at most 256 steps.\nFor more let it be made "
-                                                           "anew.</small>"), TRUE, FALSE);
-  if (layers && celd_image_has_few_bits (image))
-    gimp_procedure_dialog_fill_box (dialog, "depth-box", "picture", "source", "few-steps", "file", NULL);
-  else if (layers)
+  if (layers)
     gimp_procedure_dialog_fill_box (dialog, "depth-box", "picture", "source", "file", NULL);
   else
     gimp_procedure_dialog_fill_box (dialog, "depth-box", "picture", "file", NULL);

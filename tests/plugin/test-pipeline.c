@@ -120,6 +120,59 @@ paths_count_as_arrows_do (void)
   CHECK (difference (result, levels.data, PIXELS) > 0.1);
 }
 
+/* ------------------------------------------------------------------ precision */
+
+#define PART_X 40
+#define PART_Y 20
+
+/* The numbers of a part of depth, refined; how many were. */
+static gsize
+refine (CeldPipeline *pipeline, GeglBuffer *part)
+{
+  CeldPipelineLayer layer = { part, PART_X, PART_Y, 0 };
+  CeldPlane         numbers = { WIDTH, HEIGHT, WIDTH, result };
+  gsize             refined = 0;
+
+  gegl_buffer_get (part, GEGL_RECTANGLE (-PART_X, -PART_Y, WIDTH, HEIGHT), 1, babl_format ("Y float"), result,
+                   GEGL_AUTO_ROWSTRIDE, GEGL_ABYSS_NONE);
+  CHECK (celd_pipeline_refine (pipeline, CELD_PICTURE_DEPTH, &layer, &numbers, &refined) == CELD_OK);
+  return refined;
+}
+
+/* Depth of 8 bits becomes exact again, but for what was painted over; and there is none outside the layer. */
+static void
+few_bits_get_all_precision_but_where_they_are_painted (void)
+{
+  CeldPipelineInput input = page_input ();
+  CeldPipeline     *pipeline = celd_pipeline_new (&input, NULL);
+  GeglBuffer       *whole = gegl_buffer_new (GEGL_RECTANGLE (0, 0, WIDTH, HEIGHT), babl_format ("R'G'B' u8"));
+  GeglBuffer       *part = gegl_buffer_new (GEGL_RECTANGLE (0, 0, 50, 30), babl_format ("R'G'B' u8"));
+  float             paint = 0.25f;
+
+  CHECK (celd_pipeline_make (pipeline, BIT (DEPTH), NULL, NULL, NULL));
+  CHECK (celd_pipeline_write (pipeline, CELD_PICTURE_DEPTH, whole, NULL));
+  gegl_buffer_copy (whole, GEGL_RECTANGLE (PART_X, PART_Y, 50, 30), GEGL_ABYSS_NONE, part, GEGL_RECTANGLE (0, 0, 0, 0));
+  for (int painted = 0; painted < 2; painted++)
+    {
+      gsize same = 0, outside = 0;
+
+      if (painted)
+        gegl_buffer_set (part, GEGL_RECTANGLE (7, 9, 1, 1), 0, babl_format ("Y float"), &paint, GEGL_AUTO_ROWSTRIDE);
+      CHECK (refine (pipeline, part) == 50 * 30 - (gsize) painted);
+      for (int y = 0; y < HEIGHT; y++)
+        for (int x = 0; x < WIDTH; x++)
+          if (x < PART_X || x >= PART_X + 50 || y < PART_Y || y >= PART_Y + 30)
+            outside += result[y * WIDTH + x] == 0;
+          else
+            same += result[y * WIDTH + x] == depth.data[y * WIDTH + x];
+      CHECK (same == 50 * 30 - (gsize) painted && outside == PIXELS - 50 * 30);
+    }
+  NEAR (result[(PART_Y + 9) * WIDTH + PART_X + 7], paint, 4e-3);
+  g_object_unref (part);
+  g_object_unref (whole);
+  celd_pipeline_free (pipeline);
+}
+
 /* ------------------------------------------------------------------ progress */
 
 typedef struct { double last; int calls, most; } Watch;
@@ -483,6 +536,7 @@ main (void)
   RUN (layers_may_be_smaller_than_the_image);
   RUN (relations_count_as_arrows_do);
   RUN (paths_count_as_arrows_do);
+  RUN (few_bits_get_all_precision_but_where_they_are_painted);
   RUN (progress_rises_and_cancels);
   RUN (views_are_those_of_two_eyes);
   RUN (layers_are_the_drawing_again);
