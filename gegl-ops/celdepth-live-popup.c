@@ -19,13 +19,14 @@ static const CeldPad pads[] = {
   { "arrows", "Arrows", CELD_HELP_ARROWS, FALSE },
   { "contours", "Virtual contours", CELD_HELP_CONTOURS, FALSE },
   { "hidden", "Hidden", CELD_HELP_HIDDEN, FALSE },
+  { "corrections", "Corrections", "Strokes over lines, in the colour of the part that a line belongs to", FALSE },
   { NULL, NULL, NULL, FALSE }
 };
 
 static gboolean
 render (CeldOp *op)
 {
-  CeldPopupPads by_role = { "drawing", "scribbles", "arrows", "contours", "hidden" };
+  CeldPopupPads by_role = { "drawing", "scribbles", "arrows", "contours", "hidden", "corrections" };
 
   /* While GIMP's dialog of the effect is open, it has no layers. */
   if (!celd_op_has_input (op, "scribbles"))

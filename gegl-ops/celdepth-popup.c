@@ -118,6 +118,7 @@ celd_popup_render (CeldOp *op, const CeldPopupPads *pads)
   return celd_op_set_session (op, pads->drawing, pads->scribbles, pads->arrows) &&
          celd_op_set_layer (op, pads->contours, celd_session_set_contours) &&
          celd_op_set_layer (op, pads->hidden, celd_session_set_hidden) &&
+         (!pads->corrections || celd_op_set_layer (op, pads->corrections, celd_session_set_corrections)) &&
          write_result (op, pads->drawing);
 }
 
@@ -146,7 +147,7 @@ static const CeldPad pads[] = {
 static gboolean
 render (CeldOp *op)
 {
-  static const CeldPopupPads by_role = { "input", "aux", "aux2", "aux3", "aux4" };
+  static const CeldPopupPads by_role = { "input", "aux", "aux2", "aux3", "aux4", NULL };
 
   return celd_popup_render (op, &by_role) && report (op);
 }

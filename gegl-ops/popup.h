@@ -7,8 +7,8 @@
 
 #include "op.h"
 
-/* The pads by their roles. */
-typedef struct { const char *drawing, *scribbles, *arrows, *contours, *hidden; } CeldPopupPads;
+/* The pads by their roles; corrections NULL: there is no such pad. */
+typedef struct { const char *drawing, *scribbles, *arrows, *contours, *hidden, *corrections; } CeldPopupPads;
 
 extern const CeldProperty celd_popup_properties[];
 

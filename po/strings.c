@@ -715,3 +715,5 @@ N_("Pop-up as an effect on a layer group, which follows what is painted on its l
 N_("Group")
 /* celdepth:live-popup, help of a layer */
 N_("All layers over each other; the line drawing if there is no other one")
+/* celdepth:live-popup, help of a layer */
+N_("Strokes over lines, in the colour of the part that a line belongs to")

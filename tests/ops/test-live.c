@@ -11,13 +11,14 @@
 
 static float result[4 * PIXELS], wanted[4 * PIXELS], group_light[4 * PIXELS];
 
-static uint8_t hidden_paint[4 * PIXELS];
+static uint8_t hidden_paint[4 * PIXELS], correction_paint[4 * PIXELS];
 
-/* The drawing and the arrows over each other, as in a group; and what is hidden. */
-static GeglBuffer *group, *hidden;
+/* The drawing and the arrows over each other, as in a group; what is hidden; and a stroke in the background's colour over
+ * the outline of the left disc. */
+static GeglBuffer *group, *hidden, *corrections;
 
 /* The layers on the pads of a node; NULL: not connected. */
-typedef struct { GeglBuffer *input, *drawing, *scribbles, *arrows, *contours, *hidden; } Layers;
+typedef struct { GeglBuffer *input, *drawing, *scribbles, *arrows, *contours, *hidden, *corrections; } Layers;
 
 static void
 make_group (void)
@@ -31,8 +32,10 @@ make_group (void)
       memcpy (all + 4 * i, page_arrows[4 * i + 3] ? page_arrows + 4 * i : paper, 4);
     }
   paint_line (hidden_paint, 45, 14, 45, 40, 26, 0x000000);
-  group  = page_buffer ("R'G'B'A u8", "R'G'B'A u8", all);
-  hidden = page_buffer ("R'G'B'A u8", "R'G'B'A u8", hidden_paint);
+  paint_line (correction_paint, 20, 38, 20, 42, 2, 0x0000ff);
+  group       = page_buffer ("R'G'B'A u8", "R'G'B'A u8", all);
+  hidden      = page_buffer ("R'G'B'A u8", "R'G'B'A u8", hidden_paint);
+  corrections = page_buffer ("R'G'B'A u8", "R'G'B'A u8", correction_paint);
   gegl_buffer_get (group, NULL, 1, babl_format ("RGBA float"), group_light, GEGL_AUTO_ROWSTRIDE, GEGL_ABYSS_NONE);
 }
 
@@ -54,6 +57,7 @@ add_live (GeglNode *graph, Layers layers)
   connect_layer (graph, layers.arrows, node, "arrows");
   connect_layer (graph, layers.contours, node, "contours");
   connect_layer (graph, layers.hidden, node, "hidden");
+  connect_layer (graph, layers.corrections, node, "corrections");
   return node;
 }
 
@@ -76,7 +80,7 @@ results_are_those_of_popup (void)
 {
   for (int kind = 0; kind < RESULTS; kind++)
     {
-      render ((Layers) { group, drawing, scribbles, arrows, contours, hidden }, kind, result);
+      render ((Layers) { group, drawing, scribbles, arrows, contours, hidden, NULL }, kind, result);
       operate ("celdepth:popup", (Pads) { { drawing, scribbles, arrows, contours, hidden } }, "RGBA float", wanted,
                "result", kind, NULL);
       SAME (0);
@@ -88,7 +92,7 @@ results_are_those_of_popup (void)
 static void
 every_layer_counts (void)
 {
-  Layers all = { group, drawing, scribbles, arrows, contours, hidden }, without[4] = { all, all, all, all };
+  Layers all = { group, drawing, scribbles, arrows, contours, hidden, NULL }, without[4] = { all, all, all, all };
 
   without[0].drawing  = NULL;
   without[1].arrows   = NULL;
@@ -100,6 +104,20 @@ every_layer_counts (void)
       render (without[i], 4, result);
       CHECK (difference (result, wanted, 4 * PIXELS) > 0.1);
     }
+}
+
+/* Ink below the correction belongs to the background. */
+static void
+corrections_count (void)
+{
+  int ink = 4 * (40 * WIDTH + 21), disc = 4 * (40 * WIDTH + 45), background = 4 * (70 * WIDTH + 5);
+
+  render ((Layers) { .input = group, .drawing = drawing, .scribbles = scribbles, .arrows = arrows }, 2, result);
+  NEAR (result[ink], result[disc], 1e-6);
+  CHECK (result[ink] > result[background] + 0.3f);
+  render ((Layers) { group, drawing, scribbles, arrows, NULL, NULL, corrections }, 2, result);
+  NEAR (result[ink], result[background], 1e-6);
+  CHECK (result[disc] > result[background] + 0.3f);
 }
 
 static void
@@ -132,7 +150,7 @@ nothing_is_said_while_painting (void)
   PASSES_THROUGH ();
   gegl_buffer_copy (scribbles, NULL, GEGL_ABYSS_NONE, live, NULL);
   gegl_buffer_set_color_from_pixel (live, &outside, (const uint8_t[]) { 9, 99, 199, 255 }, babl_format ("R'G'B'A u8"));
-  render ((Layers) { group, drawing, live, arrows, NULL, NULL }, 3, result);
+  render ((Layers) { group, drawing, live, arrows, NULL, NULL, NULL }, 3, result);
   CHECK (times_said == 0 && warnings == 0);
   operate ("celdepth:popup", (Pads) { { drawing, live, arrows } }, "RGBA float", wanted, NULL);
   SAME (0);
@@ -181,7 +199,7 @@ strokes_are_followed (void)
 {
   GeglBuffer         *live = gegl_buffer_dup (scribbles);
   GeglNode           *graph = gegl_node_new ();
-  GeglNode           *node = add_live (graph, (Layers) { group, drawing, live, arrows, NULL, NULL });
+  GeglNode           *node = add_live (graph, (Layers) { group, drawing, live, arrows, NULL, NULL, NULL });
   const GeglRectangle stroke = { 78, 28, 18, 28 };
   const uint8_t       blue[] = { 0, 0, 255, 255 };
   int                 disc = 4 * (22 * WIDTH + 85), background = 4 * (70 * WIDTH + 5);
@@ -206,6 +224,7 @@ main (int argc, char **argv)
   make_group ();
   RUN (results_are_those_of_popup);
   RUN (every_layer_counts);
+  RUN (corrections_count);
   RUN (the_input_can_be_the_drawing);
   RUN (without_scribbles_the_input_passes_through);
   RUN (nothing_is_said_while_painting);
@@ -214,6 +233,7 @@ main (int argc, char **argv)
   RUN (strokes_are_followed);
   g_object_unref (group);
   g_object_unref (hidden);
+  g_object_unref (corrections);
   drop_page ();
   gegl_exit ();
   stop_to_listen ();

@@ -46,7 +46,7 @@ static const struct { const char *name; const char *pads; const char *properties
     "near-level far-level" },
   { "celdepth:compose", "aux3 aux2 aux input", "result between x y scale turn flip ink" },
   { "celdepth:popup", "aux4 aux3 aux2 aux input", POPUP_PROPERTIES },
-  { "celdepth:live-popup", "hidden contours arrows scribbles drawing input", POPUP_PROPERTIES },
+  { "celdepth:live-popup", "corrections hidden contours arrows scribbles drawing input", POPUP_PROPERTIES },
 };
 
 static bool
