@@ -11,12 +11,6 @@
 #define OPERATION "celdepth:live-popup"
 #define OPACITY 0.6 /* of a new effect, so that lines and strokes shine through; chosen */
 
-/* The pads of the operation. */
-static const struct { CeldLayerRole role; const char *name; } pads[] = {
-  { CELD_LAYER_DRAWING, "drawing" },   { CELD_LAYER_SCRIBBLES, "scribbles" }, { CELD_LAYER_ARROWS, "arrows" },
-  { CELD_LAYER_CONTOURS, "contours" }, { CELD_LAYER_HIDDEN, "hidden" },
-};
-
 /* With the name of the layer, if there is one. */
 static gboolean
 fail (GError **error, const char *format, GimpLayer *layer)
@@ -120,10 +114,10 @@ check (GimpLayer *group, GimpLayer *const layer[CELD_N_LAYERS], GError **error)
 }
 
 static gboolean
-is_on_pad (GimpLayer *const layer[CELD_N_LAYERS], GimpLayer *one)
+is_one_of (GimpLayer *const layer[CELD_N_LAYERS], GimpLayer *one)
 {
-  for (gsize i = 0; i < G_N_ELEMENTS (pads); i++)
-    if (layer[pads[i].role] == one)
+  for (int role = 0; role < CELD_N_LAYERS; role++)
+    if (layer[role] == one)
       return TRUE;
   return FALSE;
 }
@@ -142,7 +136,7 @@ make_group (GimpImage *image, GimpLayer *const layer[CELD_N_LAYERS])
       GimpItem *item = GIMP_ITEM (g_array_index (listed, CeldListedLayer, i).layer);
       GimpItem *parent = gimp_item_get_parent (item);
 
-      if (!is_on_pad (layer, GIMP_LAYER (item)))
+      if (!is_one_of (layer, GIMP_LAYER (item)))
         continue;
       if (!position)
         gimp_image_insert_layer (image, group, parent ? GIMP_LAYER (parent) : NULL,
@@ -204,11 +198,11 @@ fit (GimpLayer *group, GimpLayer *const layer[CELD_N_LAYERS])
 {
   Box whole = box_of (group);
 
-  for (gsize i = 0; i < G_N_ELEMENTS (pads); i++)
-    if (layer[pads[i].role])
+  for (int role = 0; role < CELD_N_LAYERS; role++)
+    if (layer[role])
       {
-        Box        box = box_of (layer[pads[i].role]);
-        GimpLayer *one = inside (layer[pads[i].role]);
+        Box        box = box_of (layer[role]);
+        GimpLayer *one = inside (layer[role]);
 
         if (one && (box.x != whole.x || box.y != whole.y || box.width != whole.width || box.height != whole.height))
           resize (one, box_of (one), whole);
@@ -271,9 +265,9 @@ attach (GimpLayer *group, GimpLayer *const layer[CELD_N_LAYERS], GError **error)
   gimp_drawable_filter_set_opacity (effect, OPACITY);
   gimp_drawable_filter_set_blend_mode (effect, GIMP_LAYER_MODE_REPLACE);
   visible = remove_old (group, effect);
-  for (gsize i = 0; i < G_N_ELEMENTS (pads); i++)
-    if (layer[pads[i].role])
-      gimp_drawable_filter_set_aux_input (effect, pads[i].name, GIMP_DRAWABLE (layer[pads[i].role]));
+  for (int role = 0; role < CELD_N_LAYERS; role++) /* pads are named as arguments are */
+    if (layer[role])
+      gimp_drawable_filter_set_aux_input (effect, celd_layer_arguments[role], GIMP_DRAWABLE (layer[role]));
   gimp_drawable_filter_set_visible (effect, visible);
   gimp_drawable_append_filter (GIMP_DRAWABLE (group), effect);
   return TRUE;
