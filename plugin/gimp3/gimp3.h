@@ -14,6 +14,7 @@
  *   suggest.c    Suggest order
  *   stereo.c     Stereo
  *   group.c      Live group
+ *   effect.c     its effect
  *   export.c     Export depth
  *   mesh.c       Relief mesh
  *   setup.c      Set up layers
@@ -198,6 +199,17 @@ GimpLayer *celd_results_find (GimpImage *image, const char *mark);
 
 /* The same if its pixels may be written: they are not locked. */
 GimpLayer *celd_results_find_unlocked (GimpImage *image, const char *mark);
+
+/* ------------------------------------------------------------------ effect.c */
+
+#define CELD_EFFECT "celdepth:live-popup"
+
+/* Whether an item has the effect of Live group. */
+gboolean celd_effect_is_on (GimpItem *item);
+
+/* Puts the effect on a group, with these layers, in place of an earlier one, of which it gets the settings.  FALSE:
+ * GIMP cannot make it. */
+gboolean celd_effect_put (GimpLayer *group, GimpLayer *const layer[CELD_N_LAYERS]);
 
 /* ------------------------------------------------------------------ dialog.c */
 

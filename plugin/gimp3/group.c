@@ -1,15 +1,11 @@
 /* Live group: depth as an effect on a layer group, which follows what is painted on the layers in it.
  *
- * The effect is celdepth:live-popup.  GIMP forgets its layers when a file is opened again, goes on with the old pixels
- * of a layer that was resized, and reads all layers from the upper left corner of the group.  So every run gives the
- * layers the rectangle of the group, and puts a new effect with the same settings in place of the old one.
+ * GIMP goes on with the old pixels of a layer that was resized, and reads all layers from the upper left corner of the
+ * group.  So every run gives the layers the rectangle of the group, and connects them with a new effect.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "gimp3.h"
-
-#define OPERATION "celdepth:live-popup"
-#define OPACITY 0.6 /* of a new effect, so that lines and strokes shine through; chosen */
 
 /* With the name of the layer, if there is one. */
 static gboolean
@@ -22,29 +18,7 @@ fail (GError **error, const char *format, GimpLayer *layer)
   return FALSE;
 }
 
-static gboolean
-is_live (GimpDrawableFilter *effect)
-{
-  char    *operation = gimp_drawable_filter_get_operation_name (effect);
-  gboolean live = !g_strcmp0 (operation, OPERATION);
-
-  g_free (operation);
-  return live;
-}
-
 /* ------------------------------------------------------------------ the group */
-
-static gboolean
-has_effect (GimpItem *item)
-{
-  GimpDrawableFilter **effect = gimp_drawable_get_filters (GIMP_DRAWABLE (item));
-  gboolean             found = FALSE;
-
-  for (int i = 0; effect && effect[i]; i++)
-    found = found || is_live (effect[i]);
-  g_free (effect);
-  return found;
-}
 
 /* The topmost group with the effect; NULL: there is none. */
 static GimpLayer *
@@ -57,7 +31,7 @@ find_live_group (GimpImage *image)
     {
       GimpItem *item = GIMP_ITEM (g_array_index (listed, CeldListedLayer, i).layer);
 
-      if (gimp_item_is_group (item) && has_effect (item))
+      if (gimp_item_is_group (item) && celd_effect_is_on (item))
         found = GIMP_LAYER (item);
     }
   g_array_unref (listed);
@@ -86,7 +60,7 @@ find_group (GimpImage *image)
 
   g_free (selected);
   for (GimpItem *item = first; item; item = gimp_item_get_parent (item))
-    if (gimp_item_is_group (item) && has_effect (item))
+    if (gimp_item_is_group (item) && celd_effect_is_on (item))
       return GIMP_LAYER (item);
   return first && can_be_live (first) ? GIMP_LAYER (first) : find_live_group (image);
 }
@@ -94,7 +68,7 @@ find_group (GimpImage *image)
 static gboolean
 check (GimpLayer *group, GimpLayer *const layer[CELD_N_LAYERS], GError **error)
 {
-  if (!gegl_has_operation (OPERATION))
+  if (!gegl_has_operation (CELD_EFFECT))
     return fail (error, _ ("GIMP does not find the operation celdepth:live-popup. Install celdepth's operations for "
                            "GEGL, of the same version as this plug-in, and start GIMP again."), NULL);
   if (group && gimp_layer_get_mode (group) == GIMP_LAYER_MODE_PASS_THROUGH)
@@ -209,70 +183,6 @@ fit (GimpLayer *group, GimpLayer *const layer[CELD_N_LAYERS])
       }
 }
 
-/* ------------------------------------------------------------------ the effect */
-
-static void
-copy_settings (GimpDrawableFilter *from, GimpDrawableFilter *to)
-{
-  GObject     *old = G_OBJECT (gimp_drawable_filter_get_config (from));
-  GObject     *new = G_OBJECT (gimp_drawable_filter_get_config (to));
-  guint        n;
-  GParamSpec **spec = g_object_class_list_properties (G_OBJECT_GET_CLASS (old), &n);
-
-  for (guint i = 0; i < n; i++)
-    {
-      GValue value = G_VALUE_INIT;
-
-      g_value_init (&value, spec[i]->value_type);
-      g_object_get_property (old, spec[i]->name, &value);
-      g_object_set_property (new, spec[i]->name, &value);
-      g_value_unset (&value);
-    }
-  g_free (spec);
-  gimp_drawable_filter_set_opacity (to, gimp_drawable_filter_get_opacity (from));
-}
-
-/* Removes effects of earlier runs, of which the new one gets the settings.  Whether they were visible. */
-static gboolean
-remove_old (GimpLayer *group, GimpDrawableFilter *effect)
-{
-  GimpDrawableFilter **old = gimp_drawable_get_filters (GIMP_DRAWABLE (group));
-  gboolean             visible = TRUE, found = FALSE;
-
-  for (int i = 0; old && old[i]; i++)
-    if (is_live (old[i]))
-      {
-        if (!found)
-          {
-            copy_settings (old[i], effect);
-            visible = gimp_drawable_filter_get_visible (old[i]);
-          }
-        gimp_drawable_filter_delete (old[i]);
-        found = TRUE;
-      }
-  g_free (old);
-  return visible;
-}
-
-static gboolean
-attach (GimpLayer *group, GimpLayer *const layer[CELD_N_LAYERS], GError **error)
-{
-  GimpDrawableFilter *effect = gimp_drawable_filter_new (GIMP_DRAWABLE (group), OPERATION, _ ("Live pop-up"));
-  gboolean            visible;
-
-  if (!effect)
-    return fail (error, _ ("GIMP cannot make the effect on the group \"%s\"."), group);
-  gimp_drawable_filter_set_opacity (effect, OPACITY);
-  gimp_drawable_filter_set_blend_mode (effect, GIMP_LAYER_MODE_REPLACE);
-  visible = remove_old (group, effect);
-  for (int role = 0; role < CELD_N_LAYERS; role++) /* pads are named as arguments are */
-    if (layer[role])
-      gimp_drawable_filter_set_aux_input (effect, celd_layer_arguments[role], GIMP_DRAWABLE (layer[role]));
-  gimp_drawable_filter_set_visible (effect, visible);
-  gimp_drawable_append_filter (GIMP_DRAWABLE (group), effect);
-  return TRUE;
-}
-
 /* ------------------------------------------------------------------ the procedure */
 
 /* In one step of undo. */
@@ -299,7 +209,8 @@ make_live (GimpImage *image, GError **error)
       gimp_image_set_selected_layers (image, (const GimpLayer *[]) { layer[CELD_LAYER_SCRIBBLES], NULL });
     }
   fit (group, layer);
-  good = attach (group, layer, error);
+  good = celd_effect_put (group, layer) ||
+         fail (error, _ ("GIMP cannot make the effect on the group \"%s\"."), group);
   celd_selection_restore (image, selection);
   gimp_image_undo_group_end (image);
   gimp_displays_flush ();
