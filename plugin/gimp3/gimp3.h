@@ -149,6 +149,9 @@ void         celd_layers_chosen   (GimpProcedureConfig *config, GimpLayer *layer
 void celd_settings_remember (GimpImage *image, GimpProcedureConfig *config, gboolean undoable);
 void celd_settings_recall   (GimpImage *image, GimpProcedureConfig *config);
 
+/* The layers that were chosen, and in place of others those of their names; NULL where there is none. */
+void celd_layers_kept (GimpImage *image, GimpLayer *layer[CELD_N_LAYERS]);
+
 /* ------------------------------------------------------------------ presets.c */
 
 /* The argument "preset"; what it says for a script; and the choice of a dialog, which sets the other arguments, and

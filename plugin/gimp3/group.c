@@ -38,13 +38,22 @@ find_live_group (GimpImage *image)
   return found;
 }
 
+static gboolean
+is_one_of (GimpLayer *const layer[CELD_N_LAYERS], GimpLayer *one)
+{
+  for (int role = 0; role < CELD_N_LAYERS; role++)
+    if (layer[role] == one)
+      return TRUE;
+  return FALSE;
+}
+
 /* Whether it is a group of the artist's that is not one of the layers itself. */
 static gboolean
-can_be_live (GimpItem *item)
+can_be_live (GimpItem *item, GimpLayer *const layer[CELD_N_LAYERS])
 {
   char    *name = gimp_item_get_name (item);
   gboolean can = gimp_item_is_group (item) && !celd_results_is_group (item) &&
-                 celd_layer_role_of_name (name) == CELD_N_LAYERS;
+                 celd_layer_role_of_name (name) == CELD_N_LAYERS && !is_one_of (layer, GIMP_LAYER (item));
 
   g_free (name);
   return can;
@@ -53,7 +62,7 @@ can_be_live (GimpItem *item)
 /* The group with the effect around what is selected, the group that is selected, or any group with the effect; NULL:
  * there is none. */
 static GimpLayer *
-find_group (GimpImage *image)
+find_group (GimpImage *image, GimpLayer *const layer[CELD_N_LAYERS])
 {
   GimpLayer **selected = gimp_image_get_selected_layers (image);
   GimpItem   *first = selected && selected[0] ? GIMP_ITEM (selected[0]) : NULL;
@@ -62,7 +71,36 @@ find_group (GimpImage *image)
   for (GimpItem *item = first; item; item = gimp_item_get_parent (item))
     if (gimp_item_is_group (item) && celd_effect_is_on (item))
       return GIMP_LAYER (item);
-  return first && can_be_live (first) ? GIMP_LAYER (first) : find_live_group (image);
+  return first && can_be_live (first, layer) ? GIMP_LAYER (first) : find_live_group (image);
+}
+
+static gboolean
+lies_in (GimpLayer *layer, GimpLayer *group)
+{
+  GimpItem *parent = gimp_item_get_parent (GIMP_ITEM (layer));
+
+  while (parent && parent != GIMP_ITEM (group))
+    parent = gimp_item_get_parent (parent);
+  return parent != NULL;
+}
+
+/* Layers that do not lie in the group, where GIMP does not follow them, give way to those of their names in it. */
+static void
+stay_inside (GimpLayer *group, GimpLayer *layer[CELD_N_LAYERS])
+{
+  GimpLayer *named[CELD_N_LAYERS];
+  gboolean   missing[CELD_N_LAYERS];
+
+  celd_layers_find_inside (group, named);
+  for (int role = 0; role < CELD_N_LAYERS; role++)
+    {
+      missing[role] = layer[role] ? !lies_in (layer[role], group) : role == CELD_LAYER_DRAWING;
+      if (missing[role])
+        layer[role] = NULL;
+    }
+  for (int role = 0; role < CELD_N_LAYERS; role++)
+    if (missing[role] && !is_one_of (layer, named[role]))
+      layer[role] = named[role];
 }
 
 static gboolean
@@ -85,15 +123,6 @@ check (GimpLayer *group, GimpLayer *const layer[CELD_N_LAYERS], GError **error)
                               : _ ("There is no layer named \"Scribbles\". Make it with Cartoon Depth > Set up "
                                    "layers."), group);
   return TRUE;
-}
-
-static gboolean
-is_one_of (GimpLayer *const layer[CELD_N_LAYERS], GimpLayer *one)
-{
-  for (int role = 0; role < CELD_N_LAYERS; role++)
-    if (layer[role] == one)
-      return TRUE;
-  return FALSE;
 }
 
 /* A group in place of the topmost of the layers, with all of them in their order. */
@@ -189,16 +218,16 @@ fit (GimpLayer *group, GimpLayer *const layer[CELD_N_LAYERS])
 static GimpLayer *
 make_live (GimpImage *image, GError **error)
 {
-  GimpLayer   *layer[CELD_N_LAYERS], *group = find_group (image);
+  GimpLayer   *layer[CELD_N_LAYERS], *group;
   GimpChannel *selection;
   gboolean     good;
 
   if (!celd_image_check (image, error))
     return NULL;
+  celd_layers_kept (image, layer);
+  group = find_group (image, layer);
   if (group)
-    celd_layers_find_inside (group, layer);
-  else
-    celd_layers_find (image, layer);
+    stay_inside (group, layer);
   if (!check (group, layer, error))
     return NULL;
   gimp_image_undo_group_start (image);

@@ -302,11 +302,10 @@ keep_layers (GKeyFile *file, GimpImage *image, GimpProcedureConfig *config)
       g_key_file_remove_key (file, GROUP, celd_layer_arguments[role], NULL);
 }
 
+/* Those that were chosen, else those of the names. */
 static void
-set_layers (GKeyFile *file, GimpImage *image, GimpProcedureConfig *config)
+get_layers (GKeyFile *file, GimpImage *image, GimpLayer *layer[CELD_N_LAYERS])
 {
-  GimpLayer *layer[CELD_N_LAYERS];
-
   celd_layers_find (image, layer);
   for (int role = 0; role < CELD_N_LAYERS; role++)
     if (g_key_file_has_key (file, GROUP, celd_layer_arguments[role], NULL))
@@ -317,6 +316,14 @@ set_layers (GKeyFile *file, GimpImage *image, GimpProcedureConfig *config)
         if (kept || !tattoo) /* a layer that is gone gives way to the name */
           layer[role] = kept;
       }
+}
+
+static void
+set_layers (GKeyFile *file, GimpImage *image, GimpProcedureConfig *config)
+{
+  GimpLayer *layer[CELD_N_LAYERS];
+
+  get_layers (file, image, layer);
   if (!layer[CELD_LAYER_DRAWING])
     layer[CELD_LAYER_DRAWING] = celd_layers_lowest (image, layer);
   for (int role = 0; role < CELD_N_LAYERS; role++)
@@ -337,6 +344,15 @@ kept_file (GimpImage *image)
   if (parasite)
     gimp_parasite_free (parasite);
   return file;
+}
+
+void
+celd_layers_kept (GimpImage *image, GimpLayer *layer[CELD_N_LAYERS])
+{
+  GKeyFile *file = kept_file (image);
+
+  get_layers (file, image, layer);
+  g_key_file_unref (file);
 }
 
 void
