@@ -63,8 +63,12 @@ extern const CeldProcedure celd_popup_procedure, celd_setup_procedure, celd_spli
 typedef struct { char *data; int n, left_out; } CeldPathArrows;
 CeldPathArrows celd_paths_read (GimpImage *image);
 
-/* What to say of n strokes that are no arrows; to be freed. */
+/* The same, with places as from the pixel x, y. */
+CeldPathArrows celd_paths_read_from (GimpImage *image, int x, int y);
+
+/* What to say of n strokes that are no arrows; to be freed.  And says it, if there are any. */
 char *celd_paths_left_out_text (int n);
+void  celd_paths_say_left_out  (const CeldPathArrows *paths);
 
 /* ------------------------------------------------------------------ run.c */
 
@@ -151,6 +155,16 @@ void celd_settings_recall   (GimpImage *image, GimpProcedureConfig *config);
 
 /* The layers that were chosen, and in place of others those of their names; NULL where there is none. */
 void celd_layers_kept (GimpImage *image, GimpLayer *layer[CELD_N_LAYERS]);
+
+/* What is kept with an image, or what another parasite has, which is freed (NULL: nothing), as a key file: the names of
+ * properties and their values are in this group of it. */
+#define CELD_KEPT_GROUP "pop-up"
+GKeyFile *celd_kept_with (GimpImage *image);
+GKeyFile *celd_kept_read (GimpParasite *parasite);
+
+/* Adds the value of a property to a file, if it can be kept; and sets a property, if the file has a good value. */
+void celd_kept_add (GKeyFile *file, GObject *object, const GParamSpec *spec);
+void celd_kept_set (GKeyFile *file, GObject *object, GParamSpec *spec);
 
 /* ------------------------------------------------------------------ presets.c */
 

@@ -278,8 +278,9 @@ const CeldProcedure celd_group_procedure = {
   .menu_label    = N_ ("Live _group"),
   .blurb         = N_ ("Shows depth over a layer group, and follows what is painted on the layers in it"),
   .help          = N_ ("Puts an effect on the group that is selected, or on a new one of the layers Drawing, "
-                       "Scribbles, Arrows, Contours and Hidden. Choose it again after the file was opened or a layer "
-                       "was resized: the effect is connected with the layers again, and keeps its settings."),
+                       "Scribbles, Arrows, Contours, Corrections and Hidden. Choose it again after the file was opened "
+                       "or a layer was resized: the effect is connected with the layers again, and keeps the "
+                       "settings that were changed in it."),
   .add_arguments = add_arguments,
   .run           = run,
 };

@@ -34,23 +34,23 @@ append_number (GString *data, double number)
 
 /* Handles do not matter, since only the ends of arrows do.  FALSE if the stroke has no two ends. */
 static gboolean
-append_arrow (GString *data, const double *points, gsize n, gboolean closed)
+append_arrow (GString *data, const double *points, gsize n, gboolean closed, int x, int y)
 {
   const double *from = points + 2, *to = points + n - 4;
 
   if (closed || n < 2 * POINT || (fabs (from[0] - to[0]) < 1 && fabs (from[1] - to[1]) < 1))
     return FALSE;
   g_string_append (data, data->len ? " M" : "M");
-  append_number (data, from[0]);
-  append_number (data, from[1]);
+  append_number (data, from[0] - x);
+  append_number (data, from[1] - y);
   g_string_append (data, " L");
-  append_number (data, to[0]);
-  append_number (data, to[1]);
+  append_number (data, to[0] - x);
+  append_number (data, to[1] - y);
   return TRUE;
 }
 
 static void
-append_path (GimpPath *path, GString *data, CeldPathArrows *arrows)
+append_path (GimpPath *path, GString *data, CeldPathArrows *arrows, int x, int y)
 {
   gsize n_strokes = 0;
   int  *strokes = gimp_path_get_strokes (path, &n_strokes);
@@ -62,7 +62,7 @@ append_path (GimpPath *path, GString *data, CeldPathArrows *arrows)
       gboolean closed = FALSE;
 
       gimp_path_stroke_get_points (path, strokes[i], &n, &points, &closed);
-      if (append_arrow (data, points, n, closed))
+      if (append_arrow (data, points, n, closed, x, y))
         arrows->n++;
       else
         arrows->left_out++;
@@ -72,7 +72,7 @@ append_path (GimpPath *path, GString *data, CeldPathArrows *arrows)
 }
 
 CeldPathArrows
-celd_paths_read (GimpImage *image)
+celd_paths_read_from (GimpImage *image, int x, int y)
 {
   CeldPathArrows arrows = { NULL, 0, 0 };
   GString       *data = g_string_new (NULL);
@@ -80,10 +80,16 @@ celd_paths_read (GimpImage *image)
 
   for (int i = 0; paths && paths[i]; i++)
     if (is_for_arrows (paths[i]))
-      append_path (paths[i], data, &arrows);
+      append_path (paths[i], data, &arrows, x, y);
   g_free (paths);
   arrows.data = g_string_free (data, FALSE);
   return arrows;
+}
+
+CeldPathArrows
+celd_paths_read (GimpImage *image)
+{
+  return celd_paths_read_from (image, 0, 0);
 }
 
 char *
@@ -91,4 +97,14 @@ celd_paths_left_out_text (int n)
 {
   return g_strdup_printf (_ ("Strokes of the path Arrows that are no arrows were left out: %d. They are closed, or "
                              "have one point. An arrow goes from its first point, on the nearer part, to its last one."), n);
+}
+
+void
+celd_paths_say_left_out (const CeldPathArrows *paths)
+{
+  char *text = paths->left_out ? celd_paths_left_out_text (paths->left_out) : NULL;
+
+  if (text)
+    g_message ("%s", text);
+  g_free (text);
 }

@@ -160,13 +160,7 @@ show_problems (CeldPipeline *pipeline, const CeldPathArrows *paths)
 
   if (problems)
     g_message ("%s", problems);
-  if (paths->left_out)
-    {
-      char *text = celd_paths_left_out_text (paths->left_out);
-
-      g_message ("%s", text);
-      g_free (text);
-    }
+  celd_paths_say_left_out (paths);
   g_free (problems);
 }
 

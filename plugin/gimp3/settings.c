@@ -8,7 +8,7 @@
 #include <string.h>
 
 #define PARASITE "celdepth-popup"
-#define GROUP "pop-up"
+#define GROUP CELD_KEPT_GROUP
 
 #define ALL (CELD_FOR_POPUP | CELD_FOR_SPLIT | CELD_FOR_SUGGEST | CELD_FOR_STEREO | CELD_FOR_EXPORT | CELD_FOR_MESH | \
              CELD_FOR_LIVE)
@@ -239,8 +239,8 @@ is_kept (const GParamSpec *spec)
   return FALSE;
 }
 
-static void
-keep_argument (GKeyFile *file, GObject *config, const GParamSpec *spec)
+void
+celd_kept_add (GKeyFile *file, GObject *config, const GParamSpec *spec)
 {
   GValue value = G_VALUE_INIT;
 
@@ -258,13 +258,15 @@ keep_argument (GKeyFile *file, GObject *config, const GParamSpec *spec)
 }
 
 /* What is missing or damaged stays as it is; values out of range are brought into it. */
-static void
-set_argument (GKeyFile *file, GObject *config, GParamSpec *spec)
+void
+celd_kept_set (GKeyFile *file, GObject *config, GParamSpec *spec)
 {
   GValue  value = G_VALUE_INIT;
   GError *error = NULL;
   char   *text;
 
+  if (!g_key_file_has_key (file, GROUP, spec->name, NULL))
+    return;
   g_value_init (&value, spec->value_type);
   if (G_VALUE_HOLDS_DOUBLE (&value))
     g_value_set_double (&value, g_key_file_get_double (file, GROUP, spec->name, &error));
@@ -330,14 +332,12 @@ set_layers (GKeyFile *file, GimpImage *image, GimpProcedureConfig *config)
     g_object_set (config, celd_layer_arguments[role], layer[role], NULL);
 }
 
-/* What is kept with the image already, or an empty file. */
-static GKeyFile *
-kept_file (GimpImage *image)
+GKeyFile *
+celd_kept_read (GimpParasite *parasite)
 {
-  GKeyFile     *file = g_key_file_new ();
-  GimpParasite *parasite = gimp_image_get_parasite (image, PARASITE);
-  guint32       length = 0;
-  const char   *text = parasite ? gimp_parasite_get_data (parasite, &length) : NULL;
+  GKeyFile   *file = g_key_file_new ();
+  guint32     length = 0;
+  const char *text = parasite ? gimp_parasite_get_data (parasite, &length) : NULL;
 
   if (length)
     g_key_file_load_from_data (file, text, length - 1, G_KEY_FILE_NONE, NULL);
@@ -346,10 +346,16 @@ kept_file (GimpImage *image)
   return file;
 }
 
+GKeyFile *
+celd_kept_with (GimpImage *image)
+{
+  return celd_kept_read (gimp_image_get_parasite (image, PARASITE));
+}
+
 void
 celd_layers_kept (GimpImage *image, GimpLayer *layer[CELD_N_LAYERS])
 {
-  GKeyFile *file = kept_file (image);
+  GKeyFile *file = celd_kept_with (image);
 
   get_layers (file, image, layer);
   g_key_file_unref (file);
@@ -358,7 +364,7 @@ celd_layers_kept (GimpImage *image, GimpLayer *layer[CELD_N_LAYERS])
 void
 celd_settings_remember (GimpImage *image, GimpProcedureConfig *config, gboolean undoable)
 {
-  GKeyFile     *file = kept_file (image);
+  GKeyFile     *file = celd_kept_with (image);
   guint         n;
   GParamSpec  **specs = g_object_class_list_properties (G_OBJECT_GET_CLASS (config), &n);
   char         *text;
@@ -367,7 +373,7 @@ celd_settings_remember (GimpImage *image, GimpProcedureConfig *config, gboolean 
 
   for (guint i = 0; i < n; i++)
     if (is_kept (specs[i]))
-      keep_argument (file, G_OBJECT (config), specs[i]);
+      celd_kept_add (file, G_OBJECT (config), specs[i]);
   keep_layers (file, image, config);
   text     = g_key_file_to_data (file, &length, NULL);
   parasite = gimp_parasite_new (PARASITE, GIMP_PARASITE_PERSISTENT | (undoable ? GIMP_PARASITE_UNDOABLE : 0u),
@@ -383,14 +389,14 @@ celd_settings_remember (GimpImage *image, GimpProcedureConfig *config, gboolean 
 void
 celd_settings_recall (GimpImage *image, GimpProcedureConfig *config)
 {
-  GKeyFile    *file = kept_file (image);
+  GKeyFile    *file = celd_kept_with (image);
   guint        n;
   GParamSpec **specs = g_object_class_list_properties (G_OBJECT_GET_CLASS (config), &n);
 
   g_object_set (config, "relations", "", NULL);
   for (guint i = 0; i < n; i++)
     if (is_kept (specs[i]))
-      set_argument (file, G_OBJECT (config), specs[i]);
+      celd_kept_set (file, G_OBJECT (config), specs[i]);
   set_layers (file, image, config);
   g_free (specs);
   g_key_file_unref (file);

@@ -11,8 +11,8 @@ gi.require_version('Gegl', '0.4')
 gi.require_version('Gimp', '3.0')
 from gi.repository import Gegl, Gimp  # noqa: E402
 import numpy as np  # noqa: E402
-from people import (ERRORS, EXAMPLES, OUT, PRECISIONS, QUIET, Image, all_layers, by_name, check,  # noqa: E402
-                    encode, file, open_people, pixels, pop_up, results, run)
+from people import (ERRORS, EXAMPLES, OUT, PRECISIONS, QUIET, Image, add_path, all_layers, by_name,  # noqa: E402
+                    check, encode, file, open_people, pixels, pop_up, results, run)
 
 FOLDER = os.path.join(OUT, 'outputs')
 
@@ -264,16 +264,6 @@ def meshes_are_those_of_the_command():
 
 
 # ------------------------------------------------------------------ arrows of paths
-
-def add_path(image, name, *strokes, closed=False):
-    """Each stroke is a curve through its points, with handles that lead astray."""
-    path = Gimp.Path.new(image, name)
-    image.insert_path(path, None, 0)
-    for points in strokes:
-        numbers = [number for x, y in points for number in (x - 40, y + 9, x, y, x + 40, y - 9)]
-        path.stroke_new_from_points(Gimp.PathStrokeType.BEZIER, numbers, closed)
-    return path
-
 
 ARROWS = [[(400, 150), (430, 100), (460, 215)], [(388, 327), (388, 240)], [(415, 650), (470, 580)],
           [(660, 265), (745, 278)]]
