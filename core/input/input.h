@@ -26,7 +26,9 @@
  *   stroke-graph.c       the long lines of paint
  *   joined-lines.c       where the long lines of several arrows meet
  *   explained-paint.c    the paint of lines that meet, and of their heads and dots
- *   head-fits.c          what heads and dots at the ends of lines cost
+ *   paint-window.c       samples of the paint round a node
+ *   head-fits.c          what heads at the ends of lines cost
+ *   dot-fits.c           what dots there cost
  *   head-choice.c        which of them cost least in all
  *   joined-heads.c       which end of each of several lines that meet has its head or dot
  *   line-values.c        the opacity or width of a line along its points

@@ -10,12 +10,12 @@
 #include <math.h>
 
 #define CELD_LEAST_LINE 5   /* widths of the paint: a shorter line is part of something else; chosen */
-#define CELD_MOST_APART 2.4 /* widths for which lines that meet may lie side by side; chosen: 30 degrees */
+#define CELD_MOST_APART 3   /* widths for which lines that meet may lie side by side; chosen: 23 degrees */
 #define CELD_MOST_SHARED 4.5 /* the same for lines that fade or taper; chosen: 15 degrees */
 #define CELD_HEAD_REACH 5.5 /* widths from the tip to the end of a barb, at most; chosen */
 #define CELD_LINE_BODY  0.6 /* widths from the middle of a line to the edge of its paint, and a pixel more; chosen */
 #define CELD_NODE_REACH 7   /* widths from a node up to which paint belongs to it; chosen */
-#define CELD_MOST_MARKS 7   /* lines that meet at a node, of which more are unclear; chosen */
+#define CELD_MOST_MARKS 10  /* lines that meet at a node, of which more are unclear; chosen */
 
 /* All points are in coordinates of the mask; end i of line k is number 2 k + i. */
 typedef struct
@@ -240,14 +240,48 @@ bool celd_joined_is_alone (const CeldJoinedLines *lines, size_t line, size_t mar
 /* The part of a disc, from 0 to 1, in which other colours hide what is there. */
 double celd_joined_hidden_share (const CeldJoinedLines *lines, CeldPoint centre, double radius);
 
-/* ------------------------------------------------------------------ head-fits.c */
+/* ------------------------------------------------------------------ paint-window.c, head-fits.c, dot-fits.c */
 
 /* The n ends at a node, and of each set of them (bit i: end i has a head or dot there) what that costs, in square
  * widths of paint, and where the node is then.  cost is NULL if nothing is known. */
 typedef struct { size_t end[CELD_MOST_MARKS]; int n; double *cost; CeldPoint *tip; } CeldNodeMarks;
 
+/* What a sample of the paint shows; CELD_SAMPLE_UNKNOWN: it is hidden, or of a line. */
+enum { CELD_SAMPLE_UNKNOWN = -1, CELD_SAMPLE_BARE = 0, CELD_SAMPLE_PAINT = 1 };
+
+/* Samples round a node, side x side of them, from `corner` on, `step` pixels apart; own: is no other node nearer? */
+typedef struct
+{
+  CeldPoint corner;
+  double    step, area; /* area: of a sample, in square widths */
+  int       side;
+  int8_t   *far, *at;   /* far: without the last parts of the lines of the node; at: after celd_window_lead */
+  bool     *own;
+} CeldPaintWindow;
+
+/* `far` is to be freed by the caller.  meeting: where the lines of each node meet, NAN = it has none. */
+CeldStatus celd_window_new (const CeldJoinedLines *lines, size_t node, const CeldPoint *meeting,
+                            CeldPaintWindow *window);
+CeldPoint  celd_window_point (const CeldPaintWindow *window, int x, int y);
+int        celd_window_at (const CeldPaintWindow *window, CeldPoint p);
+
+/* Leads the lines of a node to a place: their paint is explained.  Returns the part of them that is bare, in square
+ * widths. */
+double celd_window_lead (const CeldJoinedLines *lines, const CeldNodeMarks *node, CeldPoint place,
+                         CeldPaintWindow *window);
+
+/* The paint of the node that belongs to no line, between two distances from a place, in square widths. */
+double celd_window_rest (const CeldPaintWindow *window, CeldPoint place, double from, double to);
+
+/* How far a point is from the straight line from a to b. */
+double celd_distance_to_part (CeldPoint p, CeldPoint a, CeldPoint b);
+
+/* Finds the costs of a dot, which is the same for all ends of a node, and its place. */
+CeldStatus celd_dot_find (const CeldJoinedLines *lines, CeldPoint meeting, CeldPaintWindow *window,
+                          CeldNodeMarks *marks);
+
 /* Finds costs and places, for which there is room, of the ends that are given.  The paint of all lines is explained
- * (celd_joined_explain_lines).  meeting: where the lines of each node meet, NAN = it has none. */
+ * (celd_joined_explain_lines). */
 CeldStatus celd_node_marks_find (const CeldJoinedLines *lines, size_t node, const CeldPoint *meeting,
                                  CeldNodeMarks *marks);
 

@@ -364,6 +364,26 @@ a_star_that_leads_on (void)
   CHECK (right >= 0.8 * 60 * 8);
 }
 
+/* Lines that lead to one place at 30 degrees look like a disc there; the dots of all are at their other ends. */
+static void
+dots_round_a_hub (void)
+{
+  uint32_t state = 43;
+  int      right = 0;
+
+  for (int i = 0; i < 40; i++)
+    {
+      double w = random_between (&state, 4, 6), turn = random_between (&state, 0, 6.28);
+      Arrow  a[6];
+
+      for (int k = 0; k < 6; k++)
+        a[k] = through ((Point) { SIZE / 2., SIZE / 2. }, turn + 0.5236 * k, random_between (&state, 70, 90), 1, w,
+                        CELD_ARROW_DOT, true);
+      right += read_all (a, 6, CELD_ARROW_DOT, &state);
+    }
+  CHECK (right >= 0.9 * 40 * 6);
+}
+
 /* Two that leave one place, and one that crosses both: it goes on where its opacity or width does. */
 static void
 crossed_on_the_way (void)
@@ -417,6 +437,7 @@ main (void)
   RUN (at_any_angles);
   RUN (in_one_line);
   RUN (a_star_that_leads_on);
+  RUN (dots_round_a_hub);
   RUN (crossed_on_the_way);
   RUN (swelling_strokes);
   RUN (bare_strokes);
