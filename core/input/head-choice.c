@@ -19,7 +19,7 @@
 #define NO_MARK       3    /* cost of an arrow without a head, ... */
 #define NO_ARROW      0.5  /* ... of a free line without one that may be a barb, ... */
 #define BARB_LINE     8    /* ... which is no longer than so many widths, ... */
-#define MORE_MARKS    1.5  /* ... and of each head more than one */
+#define MORE_MARKS    1.1  /* ... and of each head more than one */
 #define IMPOSSIBLE    100  /* cost of a head where an arrow passes, and of two arrows of one end */
 #define SMALLER       1e-6 /* costs that differ by less are equal */
 #define MOST_RESTARTS 20   /* after a better choice was found while margins are measured */

@@ -1,8 +1,8 @@
 /* The arrows of lines that meet, by their heads or dots.
  *
  * An arrow has one head.  What each choice of heads costs at a node (head-fits.c), and where arrows may pass, gives the
- * choice for all lines that costs least (head-choice.c).  An arrow is read if every other choice for its lines, and for
- * those that they meet, costs clearly more, and if that choice explains the paint at both ends.
+ * choice for all lines that costs least (head-choice.c).  An arrow is read if every other choice for its lines costs
+ * clearly more, and if that choice explains the paint at both ends and its lines lead there.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -18,6 +18,9 @@
 #define FREE_BEND      0.7
 #define CLEAR_MARGIN   1    /* cost by which an arrow must be better than others in its place */
 #define MOST_REST      1.5  /* cost of a node where all is clear */
+#define MOST_OFF       1.5  /* widths by which a line may pass the place where it ends */
+#define CROSS_TURN     0.5  /* radians by which lines turn that only cross there */
+#define TIP_RADIUS     0.9  /* widths from the tip of a head to where there is no paint, at most */
 #define BARE_MARGIN    0.75 /* cost by which a free end must be better without a head */
 #define SHORTEST_ARROW 6    /* widths that the line of an arrow is long */
 #define OTHERS         1.5  /* widths from a free end to paint of other colours that may hide a head */
@@ -123,8 +126,8 @@ is_long_enough (const CeldJoinedLines *lines, size_t k)
   return celd_stroke_line_length (&lines->graph.line[k]) >= least_length (lines, k) * lines->graph.width;
 }
 
-/* Are the lines of an arrow, and those that they meet, clearly better than other choices?  A line with two heads, or one
- * that is too short for its head, is not one arrow, and what is next to it may be part of another. */
+/* Are the lines of an arrow clearly better than other choices?  A line with two heads, or one that is too short for its
+ * head, is not one arrow, and what is next to it may be part of another. */
 static bool
 is_clear (const CeldHeadChoice *s, size_t chain)
 {
@@ -138,8 +141,7 @@ is_clear (const CeldHeadChoice *s, size_t chain)
         return false;
       for (size_t b = 0; b < n; b++)
         if (celd_joined_node (s->lines, a) == celd_joined_node (s->lines, b) &&
-            (s->margin[b / 2] < CLEAR_MARGIN || s->heads[s->chain[b / 2]] > 1 ||
-             (s->heads[s->chain[b / 2]] && !is_long_enough (s->lines, b / 2))))
+            (s->heads[s->chain[b / 2]] > 1 || (s->heads[s->chain[b / 2]] && !is_long_enough (s->lines, b / 2))))
           return false;
     }
   return true;
@@ -155,18 +157,78 @@ outer_end (const CeldHeadChoice *s, size_t chain, bool marked)
   return NO_END;
 }
 
-/* Finds the place of an end; false if it is not apart from others, or paint is there that nothing explains, or if two
- * lines meet there almost straight without a head or dot, so that nothing shows where. */
+/* Do lines part at a node that lie on each other before it?  They end farther on. */
+static bool
+is_fork (const CeldHeadChoice *s, const CeldNodeMarks *node)
+{
+  for (int e = 0; e < node->n; e++)
+    if (celd_joined_part_from (s->lines, node->end[e]))
+      return true;
+  return false;
+}
+
+/* Does an end lead to a place, where others end, or past it? */
+static bool
+leads_to (const CeldHeadChoice *s, size_t end, CeldPoint place)
+{
+  CeldPoint from = celd_joined_led_from (s->lines, end), way = celd_joined_way (s->lines, end);
+
+  return celd_joined_is_free (s->lines, end) ||
+         fabs ((place.x - from.x) * way.y - (place.y - from.y) * way.x) <= MOST_OFF * s->lines->graph.width;
+}
+
+/* May two lines just cross at a node, so that none ends there?  Nothing else shows that they do. */
+static bool
+is_crossing (const CeldHeadChoice *s, const CeldNodeMarks *node, unsigned set)
+{
+  int straight = 0;
+
+  for (int a = 0; a < node->n; a++)
+    for (int b = a + 1; b < node->n; b++)
+      straight += celd_joined_turn (s->lines, node->end[a], node->end[b]) < CROSS_TURN;
+  return node->n == 4 && !set && straight >= 2;
+}
+
+/* Would a head at an end without one explain the paint of its node better? */
+static bool
+may_have_head (const CeldHeadChoice *s, size_t end, const CeldNodeMarks *node, unsigned set)
+{
+  for (int e = 0; e < node->n; e++)
+    for (unsigned other = 0; other < 1u << node->n; other++)
+      if (node->end[e] == end && other >> e & 1 && node->cost[other] < node->cost[set])
+        return s->lines->style == CELD_ARROW_HEAD && !s->marked[end];
+  return false;
+}
+
+/* Is a head too far behind its tip, where the paint is still wide? */
+static bool
+is_inside_head (const CeldJoinedLines *s, CeldPoint tip, unsigned set)
+{
+  return set && s->style == CELD_ARROW_HEAD && celd_joined_inside (s, tip) &&
+         sqrt (s->mask.squared[celd_joined_pixel (s, tip)]) - 0.5 > TIP_RADIUS * s->graph.width;
+}
+
+/* Does nothing show where lines end that meet at a node?  Two go on almost straight there, or cross, or part. */
+static bool
+is_on_the_way (const CeldHeadChoice *s, const CeldNodeMarks *node, unsigned set)
+{
+  return (node->n == 2 && !set && celd_joined_turn (s->lines, node->end[0], node->end[1]) < PASS_TURN) ||
+         is_crossing (s, node, set) || is_fork (s, node);
+}
+
+/* Finds the place of an end; false if it is not apart from others, or if paint is there that nothing explains, or that
+ * another choice explains better, or if the lines there may go on. */
 static bool
 find_place (const CeldHeadChoice *s, size_t end, CeldPoint *place)
 {
   const CeldNodeMarks *node = &s->node[celd_joined_node (s->lines, end)];
   unsigned             set = celd_head_choice_at (s, celd_joined_node (s->lines, end));
 
-  if (!node->cost || (node->n == 2 && !set && celd_joined_turn (s->lines, node->end[0], node->end[1]) < PASS_TURN))
+  if (!node->cost || node->cost[set] > MOST_REST || is_on_the_way (s, node, set) ||
+      celd_joined_widths_apart (s->lines, end) > CELD_MOST_APART)
     return false;
   *place = node->tip[set];
-  return node->cost[set] <= MOST_REST && celd_joined_widths_apart (s->lines, end) <= CELD_MOST_APART;
+  return leads_to (s, end, *place) && !may_have_head (s, end, node, set) && !is_inside_head (s->lines, *place, set);
 }
 
 /* Is it clear that there is no head or dot at an end, if it is free?  One that other colours hide is not looked for. */
