@@ -8,7 +8,6 @@
 #include <string.h>
 
 #define PARASITE "celdepth-popup"
-#define GROUP CELD_KEPT_GROUP
 
 #define ALL (CELD_FOR_POPUP | CELD_FOR_SPLIT | CELD_FOR_SUGGEST | CELD_FOR_STEREO | CELD_FOR_EXPORT | CELD_FOR_MESH | \
              CELD_FOR_LIVE)
@@ -247,13 +246,13 @@ celd_kept_add (GKeyFile *file, GObject *config, const GParamSpec *spec)
   g_value_init (&value, spec->value_type);
   g_object_get_property (config, spec->name, &value);
   if (G_VALUE_HOLDS_DOUBLE (&value))
-    g_key_file_set_double (file, GROUP, spec->name, g_value_get_double (&value));
+    g_key_file_set_double (file, CELD_KEPT_GROUP, spec->name, g_value_get_double (&value));
   else if (G_VALUE_HOLDS_INT (&value))
-    g_key_file_set_integer (file, GROUP, spec->name, g_value_get_int (&value));
+    g_key_file_set_integer (file, CELD_KEPT_GROUP, spec->name, g_value_get_int (&value));
   else if (G_VALUE_HOLDS_BOOLEAN (&value))
-    g_key_file_set_boolean (file, GROUP, spec->name, g_value_get_boolean (&value));
+    g_key_file_set_boolean (file, CELD_KEPT_GROUP, spec->name, g_value_get_boolean (&value));
   else if (G_VALUE_HOLDS_STRING (&value) && g_value_get_string (&value))
-    g_key_file_set_string (file, GROUP, spec->name, g_value_get_string (&value));
+    g_key_file_set_string (file, CELD_KEPT_GROUP, spec->name, g_value_get_string (&value));
   g_value_unset (&value);
 }
 
@@ -265,18 +264,18 @@ celd_kept_set (GKeyFile *file, GObject *config, GParamSpec *spec)
   GError *error = NULL;
   char   *text;
 
-  if (!g_key_file_has_key (file, GROUP, spec->name, NULL))
+  if (!g_key_file_has_key (file, CELD_KEPT_GROUP, spec->name, NULL))
     return;
   g_value_init (&value, spec->value_type);
   if (G_VALUE_HOLDS_DOUBLE (&value))
-    g_value_set_double (&value, g_key_file_get_double (file, GROUP, spec->name, &error));
+    g_value_set_double (&value, g_key_file_get_double (file, CELD_KEPT_GROUP, spec->name, &error));
   else if (G_VALUE_HOLDS_INT (&value))
-    g_value_set_int (&value, g_key_file_get_integer (file, GROUP, spec->name, &error));
+    g_value_set_int (&value, g_key_file_get_integer (file, CELD_KEPT_GROUP, spec->name, &error));
   else if (G_VALUE_HOLDS_BOOLEAN (&value))
-    g_value_set_boolean (&value, g_key_file_get_boolean (file, GROUP, spec->name, &error));
+    g_value_set_boolean (&value, g_key_file_get_boolean (file, CELD_KEPT_GROUP, spec->name, &error));
   else if (G_VALUE_HOLDS_STRING (&value))
     {
-      text = g_key_file_get_string (file, GROUP, spec->name, &error);
+      text = g_key_file_get_string (file, CELD_KEPT_GROUP, spec->name, &error);
       g_value_take_string (&value, text);
     }
   if (!error)
@@ -298,10 +297,10 @@ keep_layers (GKeyFile *file, GimpImage *image, GimpProcedureConfig *config)
   celd_layers_chosen (config, chosen);
   for (int role = 0; role < CELD_N_LAYERS; role++)
     if (chosen[role] != named[role])
-      g_key_file_set_integer (file, GROUP, celd_layer_arguments[role],
+      g_key_file_set_integer (file, CELD_KEPT_GROUP, celd_layer_arguments[role],
                               chosen[role] ? (int) gimp_item_get_tattoo (GIMP_ITEM (chosen[role])) : 0);
     else
-      g_key_file_remove_key (file, GROUP, celd_layer_arguments[role], NULL);
+      g_key_file_remove_key (file, CELD_KEPT_GROUP, celd_layer_arguments[role], NULL);
 }
 
 /* Those that were chosen, else those of the names. */
@@ -310,9 +309,9 @@ get_layers (GKeyFile *file, GimpImage *image, GimpLayer *layer[CELD_N_LAYERS])
 {
   celd_layers_find (image, layer);
   for (int role = 0; role < CELD_N_LAYERS; role++)
-    if (g_key_file_has_key (file, GROUP, celd_layer_arguments[role], NULL))
+    if (g_key_file_has_key (file, CELD_KEPT_GROUP, celd_layer_arguments[role], NULL))
       {
-        int        tattoo = g_key_file_get_integer (file, GROUP, celd_layer_arguments[role], NULL);
+        int        tattoo = g_key_file_get_integer (file, CELD_KEPT_GROUP, celd_layer_arguments[role], NULL);
         GimpLayer *kept = tattoo > 0 ? gimp_image_get_layer_by_tattoo (image, (guint) tattoo) : NULL;
 
         if (kept || !tattoo) /* a layer that is gone gives way to the name */
