@@ -121,9 +121,7 @@ sketch_close (Sketch *s)
   free (s->basins.row);
   free (s->basins.run);
   free (s->basins.paper);
-  celd_seed_rows_clear (&s->task.seeds);
-  celd_strokes_clear (&s->task.painted);
-  celd_palette_clear (&s->task.palette);
+  celd_task_clear (&s->task);
 }
 
 /* Pixels that are not as the art says. */

@@ -44,9 +44,7 @@ page_close (Page *p)
 {
   free (p->ink.data);
   free (p->label);
-  celd_strokes_clear (&p->task.painted);
-  celd_seed_rows_clear (&p->task.seeds);
-  celd_palette_clear (&p->task.palette);
+  celd_task_clear (&p->task);
   celd_basins_clear (&p->basins);
 }
 
