@@ -5,6 +5,7 @@ line for each check.
 
 SPDX-License-Identifier: LGPL-3.0-or-later
 """
+import functools
 import os
 
 import gi
@@ -40,20 +41,29 @@ def crop(layer):
     layer.resize(int(np.ptp(x)) + 1, int(np.ptp(y)) + 1, -int(x.min()), -int(y.min()))
 
 
-def open_people(bits, names=('Drawing', 'Scribbles', 'Arrows'), small=False):
-    """The layers of an example, as an artist may have them: in a group, cropped, with a selection."""
+@functools.cache
+def read_people():
+    """The pictures of an example, as an image of three layers: reading each again starts a program of GIMP."""
     image = Gimp.file_load(QUIET, file(EXAMPLES, 'people', 'drawing.png'))
     if image.get_base_type() != Gimp.ImageBaseType.RGB:
         image.convert_rgb()
+    for name in ('scribbles', 'arrows'):
+        image.insert_layer(Gimp.file_load_layer(QUIET, image, file(EXAMPLES, 'people', name + '.png')), None, 0)
+    return image
+
+
+def open_people(bits, names=('Drawing', 'Scribbles', 'Arrows'), small=False):
+    """The layers of an example, as an artist may have them: in a group, cropped, with a selection."""
+    image = read_people().duplicate()
     if image.get_precision() != PRECISIONS[bits]:
         image.convert_precision(PRECISIONS[bits])
-    image.get_layers()[0].set_name(names[0])
+    layers = image.get_layers()[::-1]
     group = Gimp.GroupLayer.new(image, 'notes')
     image.insert_layer(group, None, 0)
-    for name, file_name in zip(names[1:], ('scribbles.png', 'arrows.png')):
-        layer = Gimp.file_load_layer(QUIET, image, file(EXAMPLES, 'people', file_name))
+    for name, layer in zip(names, layers):
         layer.set_name(name)
-        image.insert_layer(layer, group, 0)
+    for layer in layers[1:]:
+        image.reorder_item(layer, group, 0)
         if small:
             crop(layer)
     image.set_selected_layers([by_name(image, names[1])])
