@@ -251,8 +251,9 @@ celd_kept_add (GKeyFile *file, GObject *config, const GParamSpec *spec)
     g_key_file_set_integer (file, CELD_KEPT_GROUP, spec->name, g_value_get_int (&value));
   else if (G_VALUE_HOLDS_BOOLEAN (&value))
     g_key_file_set_boolean (file, CELD_KEPT_GROUP, spec->name, g_value_get_boolean (&value));
-  else if (G_VALUE_HOLDS_STRING (&value) && g_value_get_string (&value))
-    g_key_file_set_string (file, CELD_KEPT_GROUP, spec->name, g_value_get_string (&value));
+  else if (G_VALUE_HOLDS_STRING (&value)) /* NULL: an empty text, in place of what was kept before */
+    g_key_file_set_string (file, CELD_KEPT_GROUP, spec->name,
+                           g_value_get_string (&value) ? g_value_get_string (&value) : "");
   g_value_unset (&value);
 }
 
