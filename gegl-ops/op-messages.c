@@ -91,7 +91,7 @@ gboolean
 celd_op_report_solve (CeldOp *op, const CeldSolve *solve)
 {
   CeldProblem  problem = { .kind = CELD_PROBLEM_NOT_CONVERGED, .x = -1, .y = -1, .relation = CELD_NO_INDEX };
-  CeldProblems problems = { &problem, 1 };
+  CeldProblems problems = { .item = &problem, .n = 1 };
 
   return solve->converged || celd_op_report (op, &problems, NULL, NULL, NULL);
 }

@@ -42,6 +42,7 @@ void       celd_ownership_clear (CeldOwnership *own);                      /* ac
 
 /* Append one record.  Without a list of problems (NULL) nothing is to be reported, and the answer is CELD_OK. */
 CeldStatus celd_problem_add (CeldProblems *problems, CeldProblem problem);
+CeldStatus celd_problem_copy (const CeldProblems *from, size_t i, CeldProblems *to); /* with its paint */
 CeldStatus celd_relation_add (CeldRelations *relations, CeldRelation relation);
 
 /* Whether two ends of relations name the same colour or the same point of one drawing. */

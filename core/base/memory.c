@@ -137,6 +137,24 @@ celd_problem_add (CeldProblems *problems, CeldProblem problem)
 }
 
 CeldStatus
+celd_problem_copy (const CeldProblems *from, size_t i, CeldProblems *to)
+{
+  const CeldProblem *item = &from->item[i];
+  CeldProblem        copy = *item;
+  CeldStatus         status;
+
+  if (!to)
+    return CELD_OK;
+  if (!celd_reserve (&to->run, to->n_runs + item->runs, &(size_t) { 0 }, sizeof *to->run))
+    return CELD_NO_MEMORY;
+  copy.first = to->n_runs;
+  status     = celd_problem_add (to, copy);
+  for (size_t k = 0; k < item->runs && status == CELD_OK; k++)
+    to->run[to->n_runs++] = from->run[item->first + k];
+  return status;
+}
+
+CeldStatus
 celd_relation_add (CeldRelations *relations, CeldRelation relation)
 {
   return celd_append_uncounted (relations->item, relations->n, relation);
@@ -160,6 +178,7 @@ void
 celd_problems_clear (CeldProblems *problems)
 {
   celd_free (problems->item);
+  celd_free (problems->run);
   *problems = (CeldProblems) { 0 };
 }
 

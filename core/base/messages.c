@@ -105,6 +105,40 @@ relation_name (const CeldRelations *relations, size_t index, bool begins, CeldTr
 
 /* ------------------------------------------------------------------ sentences */
 
+/* About a painted arrow that was left out, with places for x and y. */
+static const char *
+arrow_text (CeldArrowReason reason)
+{
+  switch (reason)
+    {
+    case CELD_REASON_SHORT:
+      return N_ ("The arrow at (%d, %d) is too short for its width, so it was left out. Draw it longer, or with a thinner "
+                 "brush.");
+    case CELD_REASON_HEAD_OPPOSED:
+      return N_ ("The arrow at (%d, %d) has its head at the end that is nearer by its opacity or width, so it was left "
+                 "out. Draw it without a head, or check the arrow style.");
+    case CELD_REASON_UNEVEN:
+      return N_ ("The arrow at (%d, %d) may be two strokes that touch: it turns sharply, changes its colour, or does not "
+                 "get fainter or thinner all the way. So it was left out. Draw it again in one go, or draw two arrows "
+                 "apart from each other.");
+    case CELD_REASON_MEETING:
+      return N_ ("The arrow at (%d, %d) meets other strokes, and which way it goes on there is not clear, so it was left "
+                 "out. Draw it apart from them, or in another colour.");
+    case CELD_REASON_PIECE:
+      return N_ ("The small stroke at (%d, %d) may be a piece of the one next to it, so it was left out. Draw arrows "
+                 "without gaps, and farther from each other.");
+    case CELD_REASON_HIDDEN:
+      return N_ ("The arrow at (%d, %d) may have an end below other strokes, so it was left out. Draw its ends where "
+                 "they can be seen.");
+    case CELD_REASON_FRAME:
+      return N_ ("The arrow at (%d, %d) may go on beyond the edge of the picture, so it was left out. Draw it farther "
+                 "inside.");
+    default:
+      return N_ ("The arrow at (%d, %d) does not say which end is nearer, so it was left out. Draw it again with a "
+                 "clearer head, or check the arrow style.");
+    }
+}
+
 /* About a relation that was left out. */
 static void
 left_out_text (const CeldProblem *p, const CeldPalette *palette, const CeldRelations *relations,
@@ -154,10 +188,7 @@ celd_problem_text (const CeldProblem *p, const CeldPalette *palette, const CeldR
                 colour, p->x, p->y);
       break;
     case CELD_PROBLEM_ARROW_UNCLEAR:
-      snprintf (text, size, celd_in (translate, N_ ("The arrow at (%d, %d) does not say which end is nearer, so it was "
-                                                    "left out. Draw it again with a clearer head, or check the "
-                                                    "arrow style.")),
-                p->x, p->y);
+      snprintf (text, size, celd_in (translate, arrow_text (p->reason)), p->x, p->y);
       break;
     case CELD_PROBLEM_OUTSIDE:
     case CELD_PROBLEM_UNKNOWN_COLOUR:

@@ -68,7 +68,7 @@ typedef enum
   CELD_PROBLEM_STROKE_OVERRULED,   /* most of a colour's stroke at (x,y) went to region `other` */
   CELD_PROBLEM_REGION_UNREACHED,   /* no stroke reaches the region round (x,y), closed but for gaps */
   CELD_PROBLEM_COLOUR_LOST,        /* a colour has no pixel left after segmentation */
-  CELD_PROBLEM_ARROW_UNCLEAR,      /* the arrow at (x,y) does not say which end is nearer; left out */
+  CELD_PROBLEM_ARROW_UNCLEAR,      /* the painted arrow at (x,y) was left out, for `reason` */
   CELD_PROBLEM_OUTSIDE,            /* relation `relation` has an end outside the drawing; left out */
   CELD_PROBLEM_UNKNOWN_COLOUR,     /* relation `relation` names a colour that is no label; left out */
   CELD_PROBLEM_SAME_REGION,        /* both ends of relation `relation` lie in one region; left out */
@@ -78,6 +78,20 @@ typedef enum
   CELD_PROBLEM_HIDDEN_UNSURE       /* what is hidden of `label`, round (x,y), is hardly more than a guess */
 } CeldProblemKind;
 
+/* Why a painted arrow is unclear. */
+typedef enum
+{
+  CELD_REASON_NONE,                /* it is clear, or the problem is no arrow */
+  CELD_REASON_SHORT,               /* too short for its width */
+  CELD_REASON_ALIKE,               /* neither of its ends, or each, is what the style says of the nearer one */
+  CELD_REASON_HEAD_OPPOSED,        /* it fades or tapers, but its head is at the nearer end */
+  CELD_REASON_UNEVEN,              /* it turns sharply, changes colour, or fades or tapers in parts only */
+  CELD_REASON_MEETING,             /* it meets strokes, and which way it goes on there cannot be told */
+  CELD_REASON_PIECE,               /* small, and so near to another stroke that it may be a piece of it */
+  CELD_REASON_HIDDEN,              /* an end of it, or its head or dot, may lie below other strokes */
+  CELD_REASON_FRAME                /* it may go on beyond the edge of the picture */
+} CeldArrowReason;
+
 #define CELD_NO_INDEX SIZE_MAX
 
 typedef struct
@@ -86,13 +100,24 @@ typedef struct
   int             x, y;            /* the place in the picture; -1 if there is none */
   uint32_t        label, other;    /* labels concerned; 0 if none */
   size_t          relation;        /* index into the relations; CELD_NO_INDEX if none */
+  CeldArrowReason reason;          /* of an unclear arrow */
+  size_t          first, runs;     /* the paint of an unclear arrow: so many runs from this one on */
 } CeldProblem;
 
-typedef struct { CeldProblem *item; size_t n; } CeldProblems;
+typedef struct { int x, y, n; } CeldPaintRun; /* n pixels of a row, from (x,y) on */
+
+typedef struct
+{
+  CeldProblem  *item;
+  size_t        n;
+  CeldPaintRun *run;               /* of all items */
+  size_t        n_runs;
+} CeldProblems;
 
 CELD_API void celd_problems_clear (CeldProblems *problems);
 
-/* Draws a red ring with a dot at its centre round the place of each problem, over what the picture contains. */
+/* Over what the picture contains, paints unclear arrows again in red, and draws a red ring with a dot at its centre
+ * round the place of each other problem. */
 CELD_API void celd_problems_paint (const CeldProblems *problems, CeldPaint *paint);
 
 /* Writes what is wrong, where, and what to do; cut to `size` bytes with the final 0.  palette and relations may be

@@ -1,7 +1,7 @@
 /* Painted pictures: labels as colours and back, marks at problems, colours under transparent pixels.
  *
  * Distinct colours are counted in a hash table.  A mark is a red ring with a white rim, which is visible on ink, paper
- * and colours, and a dot at the place itself.
+ * and colours, and a dot at the place itself.  An unclear arrow is its own mark: its paint in red.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -252,10 +252,19 @@ celd_blend (uint8_t *rgba, const double colour[3], double opacity)
   rgba[3] = (uint8_t) lround (255 * alpha);
 }
 
+static const double red[3] = { 230, 0, 0 }, white[3] = { 255, 255, 255 };
+
+static void
+paint_run (CeldPaint *paint, const CeldPaintRun *run)
+{
+  for (int x = run->x; x < run->x + run->n; x++)
+    if (x >= 0 && run->y >= 0 && x < paint->width && run->y < paint->height)
+      celd_blend (CELD_RGBA (paint, x, run->y), red, 1);
+}
+
 static void
 paint_mark (CeldPaint *paint, int x, int y, double radius)
 {
-  static const double red[3] = { 230, 0, 0 }, white[3] = { 255, 255, 255 };
   double              line = fmax (1, MARK_LINE * radius) / 2, rim = line + fmax (1, MARK_RIM * radius);
   double              dot = MARK_DOT * radius;
   int                 half = (int) ceil (radius + rim) + 1;
@@ -278,8 +287,10 @@ celd_problems_paint (const CeldProblems *problems, CeldPaint *paint)
   int    side = paint->width < paint->height ? paint->width : paint->height;
   double radius = fmax (MARK_RADIUS, side / MARK_SIDE_RATIO);
 
+  for (size_t i = 0; i < problems->n_runs; i++)
+    paint_run (paint, &problems->run[i]);
   for (size_t i = 0; i < problems->n; i++)
-    if (problems->item[i].x >= 0 && problems->item[i].y >= 0)
+    if (!problems->item[i].runs && problems->item[i].x >= 0 && problems->item[i].y >= 0)
       paint_mark (paint, problems->item[i].x, problems->item[i].y, radius);
 }
 

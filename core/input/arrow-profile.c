@@ -279,7 +279,7 @@ is_single (CeldArrowStroke *stroke, uint32_t start, uint32_t last, double widest
   return 50 * off < stroke->n;
 }
 
-bool
+CeldArrowReason
 celd_arrow_profile (CeldArrowStroke *stroke, const CeldArrowLayer *layer, CeldArrowStyle style, CeldArrowEnds *ends)
 {
   uint32_t  start = celd_stroke_follow (stroke, stroke->pixel, 1), last = celd_stroke_follow (stroke, &start, 1);
@@ -289,27 +289,32 @@ celd_arrow_profile (CeldArrowStroke *stroke, const CeldArrowLayer *layer, CeldAr
   CeldPoint first, end;
 
   if (length < SHORTEST_PROFILE)
-    return false;
+    return CELD_REASON_SHORT;
   measure (stroke, layer, CELD_ARROW_TAPER, 0, n, widths);
   for (int i = 0; i < n; i++)
     widths[0] = fmax (widths[0], widths[i]);
-  if (length < 1.5 * widths[0] || !is_single (stroke, start, last, widths[0]) ||
-      celd_stroke_changes_colour (stroke, layer) || has_sharp_corner (stroke, widths[0]) ||
-      (style == CELD_ARROW_TAPER && runs_along_frame (stroke, widths[0])))
-    return false;
+  if (length < 1.5 * widths[0])
+    return CELD_REASON_SHORT;
+  if (!is_single (stroke, start, last, widths[0]))
+    return CELD_REASON_MEETING;
+  if (celd_stroke_changes_colour (stroke, layer) || has_sharp_corner (stroke, widths[0]))
+    return CELD_REASON_UNEVEN;
+  if (style == CELD_ARROW_TAPER && runs_along_frame (stroke, widths[0]))
+    return CELD_REASON_FRAME;
   margin = fmin (0.3 * widths[0], length / 8);
   measure (stroke, layer, style, 0, 3, third);
   measure (stroke, layer, style, margin, n, value);
   most  = fmax (third[0], third[2]);
   least = fmin (third[0], third[2]);
-  if (most - least < LEAST_SIGNAL * most || third[1] < least - SLACK * most || third[1] > most + SLACK * most)
-    return false;
-  if (!falls (stroke, value, n, third[0] < third[2], margin, widths[0]) ||
+  if (most - least < LEAST_SIGNAL * most)
+    return CELD_REASON_ALIKE;
+  if (third[1] < least - SLACK * most || third[1] > most + SLACK * most ||
+      !falls (stroke, value, n, third[0] < third[2], margin, widths[0]) ||
       !falls_closely (stroke, layer, style, third[0] < third[2], margin, widths[0]))
-    return false;
+    return CELD_REASON_UNEVEN;
   w     = fmax (1, fmin (celd_stroke_mean_width (stroke, 0, length), length / 3));
   first = celd_stroke_centroid (stroke, 0, w);
   end   = celd_stroke_centroid (stroke, length - w, length);
   *ends = third[0] > third[2] ? (CeldArrowEnds) { first, end } : (CeldArrowEnds) { end, first };
-  return true;
+  return CELD_REASON_NONE;
 }

@@ -24,21 +24,33 @@ head_disagrees (CeldArrowStroke *stroke, const CeldArrowEnds *ends)
 {
   CeldArrowEnds found;
 
-  return celd_arrowhead (stroke, false, &found) && hypot (found.tip.x - ends->tail.x, found.tip.y - ends->tail.y) <
-                                                  hypot (found.tip.x - ends->tip.x, found.tip.y - ends->tip.y);
+  return !celd_arrowhead (stroke, false, &found) && hypot (found.tip.x - ends->tail.x, found.tip.y - ends->tail.y) <
+                                                   hypot (found.tip.x - ends->tip.x, found.tip.y - ends->tip.y);
 }
 
-static bool
+/* CELD_REASON_NONE, or why the stroke is no clear arrow.  Resets the distances of its pixels, because crossing strokes
+ * share some. */
+static CeldArrowReason
 read_stroke (CeldArrowStroke *stroke, const CeldArrowLayer *layer, CeldArrowStyle style, CeldArrowEnds *ends)
 {
-  CeldArrowEnds found;
+  CeldArrowEnds   found;
+  CeldArrowReason reason;
 
   if (style == CELD_ARROW_FADE || style == CELD_ARROW_TAPER)
-    return celd_arrow_profile (stroke, layer, style, ends) && !head_disagrees (stroke, ends);
-  if (!celd_arrowhead (stroke, style == CELD_ARROW_DOT, &found))
-    return false;
-  *ends = style == CELD_ARROW_DOT ? (CeldArrowEnds) { found.tip, found.tail } : found;
-  return true;
+    {
+      reason = celd_arrow_profile (stroke, layer, style, ends);
+      if (!reason && head_disagrees (stroke, ends))
+        reason = CELD_REASON_HEAD_OPPOSED;
+    }
+  else
+    {
+      reason = celd_arrowhead (stroke, style == CELD_ARROW_DOT, &found);
+      if (!reason)
+        *ends = style == CELD_ARROW_DOT ? (CeldArrowEnds) { found.tip, found.tail } : found;
+    }
+  for (size_t i = 0; i < stroke->n; i++)
+    stroke->distance[stroke->pixel[i]] = INFINITY;
+  return reason;
 }
 
 bool
@@ -73,33 +85,17 @@ add_arrow (const CeldArrowEnds *ends, bool crack, CeldRelations *relations)
   });
 }
 
-CeldProblem
-celd_arrow_unclear (const CeldArrowStroke *stroke)
-{
-  uint32_t middle = stroke->pixel[stroke->n / 2];
-
-  return (CeldProblem) {
-    .kind = CELD_PROBLEM_ARROW_UNCLEAR, .relation = CELD_NO_INDEX,
-    .x = celd_stroke_x (stroke, middle), .y = celd_stroke_y (stroke, middle),
-  };
-}
-
-/* Appends the relation of a stroke; *clear becomes false if it is no clear arrow.  Resets the distances of its pixels,
- * because crossing strokes share some. */
+/* Appends the relation of a stroke; *clear becomes false if it is no clear arrow. */
 static CeldStatus
 read_one (CeldArrowStroke *stroke, const CeldArrowLayer *layer, CeldArrowStyle style, CeldRelations *relations,
           bool *clear)
 {
   CeldArrowEnds ends = { { 0, 0 }, { 0, 0 } };
-  CeldStatus    status = CELD_OK;
 
-  if (read_stroke (stroke, layer, style, &ends))
-    status = add_arrow (&ends, celd_arrow_is_blue (stroke, layer), relations);
-  else
-    *clear = false;
-  for (size_t i = 0; i < stroke->n; i++)
-    stroke->distance[stroke->pixel[i]] = INFINITY;
-  return status;
+  if (!read_stroke (stroke, layer, style, &ends))
+    return add_arrow (&ends, celd_arrow_is_blue (stroke, layer), relations);
+  *clear = false;
+  return CELD_OK;
 }
 
 /* ------------------------------------------------------------------ strokes that cross */
@@ -164,19 +160,45 @@ celd_arrow_strokes_read (CeldArrowStroke *stroke, const CeldArrowLayer *layer, C
   return status;
 }
 
+/* Why a stroke is left out that was not read: its own reason; or `reason` if it is clear alone, or just has none of the
+ * marks of an arrow. */
+static CeldArrowReason
+why_unclear (CeldArrowStroke *stroke, const CeldArrowLayer *layer, CeldArrowStyle style, CeldArrowReason reason)
+{
+  CeldArrowEnds   ends;
+  CeldArrowReason own = read_stroke (stroke, layer, style, &ends);
+
+  return !own || (own == CELD_REASON_ALIKE && reason) ? reason : own;
+}
+
+/* The same for one of several strokes that cross, of which others may be unclear. */
+static CeldArrowReason
+why_crossing_unclear (CeldArrowStroke *stroke, const CeldArrowLayer *layer, CeldArrowStyle style,
+                      CeldArrowReason reason)
+{
+  bool            two = has_two_colours (stroke, layer);
+  CeldArrowReason why = why_unclear (stroke, layer, style, reason);
+
+  return two ? CELD_REASON_UNEVEN : why ? why : CELD_REASON_MEETING;
+}
+
 CeldStatus
-celd_arrow_strokes_report (const CeldArrowStroke *paint, const CeldCrossingStrokes *strokes, CeldProblems *problems)
+celd_arrow_strokes_report (const CeldArrowStroke *paint, const CeldCrossingStrokes *strokes,
+                           const CeldStrokeCover *cover, const CeldArrowLayer *layer, CeldArrowStyle style,
+                           CeldArrowReason reason, CeldProblems *problems)
 {
   CeldArrowStroke stroke = *paint;
   CeldStatus      status = CELD_OK;
 
   if (!strokes->n)
-    return celd_problem_add (problems, celd_arrow_unclear (paint));
+    return celd_arrow_problem_add (problems, why_unclear (&stroke, layer, style, reason), celd_stroke_middle (paint),
+                                   paint, cover);
   for (size_t k = 0; k < strokes->n && status == CELD_OK; k++)
     {
       celd_stroke_select (strokes, k, &stroke);
       if (stroke.n >= CELD_LEAST_STROKE)
-        status = celd_problem_add (problems, celd_arrow_unclear (&stroke));
+        status = celd_arrow_problem_add (problems, why_crossing_unclear (&stroke, layer, style, reason),
+                                         celd_stroke_middle (&stroke), &stroke, cover);
     }
   return status;
 }

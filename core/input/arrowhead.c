@@ -22,6 +22,7 @@
 #define EVEN_WIDTH     2.2 /* largest ratio of widths along a shaft, because pens start thin; chosen */
 #define THICK_START    1.4 /* largest ratio of the width near the tail to that in the middle: more is a head; chosen */
 #define SHORTEST_SHAFT 6   /* pixels; chosen */
+#define LEAST_SHAFT    1.5 /* widths; chosen */
 #define AXIS_ROUNDS    3   /* iterations in which the axis is turned towards the tip; chosen */
 
 /* The pixels of a stroke at a distance of `from` or more, in coordinates along an axis: s forwards, v sideways (left of
@@ -326,7 +327,7 @@ read_from_tail (CeldArrowStroke *stroke, uint32_t tail, bool dot, CeldArrowEnds 
     return false;
   w   = celd_stroke_mean_width (stroke, 1, 0.5 * length);
   end = shaft_end (stroke, w);
-  if (end >= length || end < 1.5 * w || !is_even (stroke, w, end))
+  if (end >= length || end < LEAST_SHAFT * w || !is_even (stroke, w, end))
     return false;
   w     = width_before (stroke, w, end);
   view  = view_beyond (stroke, w, end);
@@ -344,7 +345,18 @@ read_from_tail (CeldArrowStroke *stroke, uint32_t tail, bool dot, CeldArrowEnds 
   return hypot (last.x - ends->tail.x, last.y - ends->tail.y) < w + 2 && !two_meet_at_end (stroke, w, barb_length (&e));
 }
 
-bool
+/* Is a stroke so short, seen from an end, that there is no room for a shaft? */
+static bool
+is_short (CeldArrowStroke *stroke, uint32_t end)
+{
+  double length;
+
+  celd_stroke_follow (stroke, &end, 1);
+  length = celd_stroke_length (stroke);
+  return length < SHORTEST_SHAFT || length < LEAST_SHAFT * celd_stroke_mean_width (stroke, 1, 0.5 * length);
+}
+
+CeldArrowReason
 celd_arrowhead (CeldArrowStroke *stroke, bool dot, CeldArrowEnds *ends)
 {
   uint32_t extremity[EXTREMITIES];
@@ -360,9 +372,9 @@ celd_arrowhead (CeldArrowStroke *stroke, bool dot, CeldArrowEnds *ends)
       if (!read_from_tail (stroke, extremity[i], dot, &one))
         continue;
       if (found && hypot (one.tip.x - ends->tip.x, one.tip.y - ends->tip.y) > 3)
-        return false;
+        return CELD_REASON_ALIKE;
       found = true;
       *ends = one;
     }
-  return found;
+  return found ? CELD_REASON_NONE : is_short (stroke, extremity[0]) ? CELD_REASON_SHORT : CELD_REASON_ALIKE;
 }

@@ -153,11 +153,13 @@ read_component (CeldArrowStroke *stroke, const CeldArrowLayer *layer, CeldArrowS
     status = celd_coloured_arrows_read (&colours, stroke, layer, style, relations, problems);
   else if (status == CELD_OK && !clear)
     {
-      double width = 0;
+      CeldJoinedFound found = { 0 };
 
-      status = celd_joined_arrows_read (stroke, NULL, layer, style, relations, problems, &width);
-      if (status == CELD_OK && !(width > 0))
-        status = celd_arrow_strokes_report (stroke, &strokes, problems);
+      status = celd_joined_arrows_read (stroke, NULL, layer, style, relations, problems, NULL, &found);
+      if (status == CELD_OK && !(found.width > 0))
+        status = celd_arrow_strokes_report (stroke, &strokes, NULL, layer, style,
+                                            found.branched && !strokes.n ? CELD_REASON_MEETING : CELD_REASON_NONE,
+                                            problems);
     }
   celd_crossing_strokes_clear (&strokes);
   celd_colour_strokes_clear (&colours);
@@ -179,7 +181,7 @@ read_components (Components *s, const CeldArrowLayer *layer, CeldArrowStyle styl
       s->stroke.n     = s->component[k].area;
       done += s->stroke.n;
       if ((style == CELD_ARROW_FADE || style == CELD_ARROW_TAPER) && is_remnant (s))
-        status = celd_problem_add (problems, celd_arrow_unclear (&s->stroke));
+        status = celd_arrow_problem_add (problems, CELD_REASON_PIECE, celd_stroke_middle (&s->stroke), &s->stroke, NULL);
       else
         status = read_component (&s->stroke, layer, style, relations, problems);
       if (status == CELD_OK)
@@ -197,6 +199,7 @@ celd_arrows_read (const CeldPaint *arrows, CeldArrowStyle style, const CeldHost 
   CeldHostPart   first, rest;
   CeldHost       finding = celd_host_part (&first, host, 0, 0.5), reading = celd_host_part (&rest, host, 0.5, 1);
   size_t         n_relations = relations->n, n_problems = problems ? problems->n : 0;
+  size_t         n_runs = problems ? problems->n_runs : 0;
   CeldStatus     status;
 
   if (!CELD_SAME_SIZE (arrows, arrows))
@@ -213,7 +216,10 @@ celd_arrows_read (const CeldPaint *arrows, CeldArrowStyle style, const CeldHost 
     {
       relations->n = n_relations;
       if (problems)
-        problems->n = n_problems;
+        {
+          problems->n      = n_problems;
+          problems->n_runs = n_runs;
+        }
     }
   return status;
 }

@@ -27,6 +27,7 @@ typedef struct
   bool              graded; /* the arrows fade or taper */
   CeldArrowEnd     *end;    /* two for each relation from `first` on */
   size_t            n, capacity, first;
+  CeldProblems      doubts; /* of each of these relations, the problem that it is if its ends are unclear */
 } ColouredArrows;
 
 /* The mean width of an arrow that is all of a stroke, with its head or dot. */
@@ -91,16 +92,34 @@ marks_are_seen (const ColouredArrows *s, const CeldArrowStroke *stroke, const bo
   return true;
 }
 
+/* Appends the doubts of the relations from `before` on, which are those of all strokes that cross, or of the whole. */
+static CeldStatus
+add_doubts (ColouredArrows *s, const CeldArrowStroke *whole, const CeldCrossingStrokes *strokes,
+            const CeldStrokeCover *cover, const CeldRelations *relations, size_t before)
+{
+  CeldArrowStroke stroke = *whole;
+  CeldStatus      status = CELD_OK;
+
+  for (size_t k = 0; k < relations->n - before && status == CELD_OK; k++)
+    {
+      if (relations->n - before > 1)
+        celd_stroke_select (strokes, k, &stroke);
+      status = celd_arrow_problem_add (&s->doubts, CELD_REASON_NONE, celd_stroke_middle (&stroke), &stroke, cover);
+    }
+  return status;
+}
+
 /* Reads a part of a colour: as a stroke, or several that cross, else as lines that meet. */
 static CeldStatus
 read_part (ColouredArrows *s, CeldArrowStroke *stroke, size_t k, CeldRelations *relations, CeldProblems *problems)
 {
   const CeldColourStrokes *colours = s->paint.colours;
   CeldCrossingStrokes      strokes = { 0 };
-  CeldStrokeCover          cover = { s->paint.component, &colours->seen[colours->strokes.first[k]] };
+  CeldStrokeCover          cover = {
+    s->paint.component, stroke->pixel, stroke->n, &colours->seen[colours->strokes.first[k]] };
+  CeldJoinedFound          found = { 0 };
   size_t                   before = relations->n;
-  double                   width = 0;
-  bool                     clear = false, readable = s->graded || !colours->remnant[k];
+  bool                     clear = false, readable = s->graded || !colours->remnant[k], marked = true;
   CeldStatus               status;
 
   status = readable ? celd_arrow_strokes_read (stroke, s->paint.layer, s->style, relations, &strokes, &clear)
@@ -108,13 +127,19 @@ read_part (ColouredArrows *s, CeldArrowStroke *stroke, size_t k, CeldRelations *
   if (clear && !marks_are_seen (s, stroke, cover.seen, relations, before))
     {
       relations->n = before;
-      clear        = false;
+      clear = marked = false;
     }
-  if (status == CELD_OK && readable && !clear)
-    status = celd_joined_arrows_read (stroke, &cover, s->paint.layer, s->style, relations, problems, &width);
-  if (status == CELD_OK)
-    status = clear || width > 0 ? add_ends (s, stroke, k, relations, before, width)
-                                : celd_arrow_strokes_report (stroke, &strokes, problems);
+  if (status == CELD_OK && clear)
+    status = add_doubts (s, stroke, &strokes, &cover, relations, before);
+  else if (status == CELD_OK && readable)
+    status = celd_joined_arrows_read (stroke, &cover, s->paint.layer, s->style, relations, problems, &s->doubts, &found);
+  if (status == CELD_OK && (clear || found.width > 0))
+    status = add_ends (s, stroke, k, relations, before, found.width);
+  else if (status == CELD_OK)
+    status = celd_arrow_strokes_report (stroke, &strokes, &cover, s->paint.layer, s->style,
+                                        !readable || !marked ? CELD_REASON_HIDDEN
+                                        : found.branched && !strokes.n ? CELD_REASON_MEETING : CELD_REASON_NONE,
+                                        problems);
   celd_crossing_strokes_clear (&strokes);
   return status;
 }
@@ -141,38 +166,45 @@ may_be_two (const ColouredArrows *s, const CeldArrowStroke *component, size_t re
   return false;
 }
 
-/* Is an arrow clear in all?  One with both ends in sight needs not be looked at any more. */
-static bool
-is_clear (const ColouredArrows *s, const CeldArrowStroke *component, size_t relation)
+/* Why an arrow is not clear in all, if so.  One with both ends in sight needs not be looked at any more. */
+static CeldArrowReason
+why_unclear (const ColouredArrows *s, const CeldArrowStroke *component, size_t relation)
 {
   const CeldArrowEnd *end = &s->end[2 * relation];
 
-  return end[0].known && end[1].known && celd_points_apart (end[0].place, end[1].place) >= LEAST_ARROW * end->width &&
-         (s->graded || (end[0].visible && end[1].visible) || !may_be_two (s, component, relation));
+  if (!end[0].known || !end[1].known)
+    return CELD_REASON_HIDDEN;
+  if (celd_points_apart (end[0].place, end[1].place) < LEAST_ARROW * end->width)
+    return CELD_REASON_SHORT;
+  if (!s->graded && !(end[0].visible && end[1].visible) && may_be_two (s, component, relation))
+    return CELD_REASON_MEETING;
+  return CELD_REASON_NONE;
 }
 
 /* Gives relations the places of their ends, and removes and reports those that have none, or are too short. */
 static CeldStatus
-settle (const ColouredArrows *s, const CeldArrowStroke *component, CeldRelations *relations, CeldProblems *problems)
+settle (ColouredArrows *s, const CeldArrowStroke *component, CeldRelations *relations, CeldProblems *problems)
 {
   size_t     kept = s->first;
   CeldStatus status = CELD_OK;
 
   for (size_t i = 0; i < s->n / 2 && status == CELD_OK; i++)
     {
-      CeldRelation r = relations->item[s->first + i];
-      CeldPoint    from = s->end[2 * i].place, to = s->end[2 * i + 1].place;
+      const CeldArrowEnd *end = &s->end[2 * i];
+      CeldProblem        *doubt = &s->doubts.item[i];
+      CeldRelation        r = relations->item[s->first + i];
 
-      r.nearer.x  = from.x;
-      r.nearer.y  = from.y;
-      r.farther.x = to.x;
-      r.farther.y = to.y;
-      if (is_clear (s, component, i))
-        relations->item[kept++] = r;
+      r.nearer.x    = end[0].place.x;
+      r.nearer.y    = end[0].place.y;
+      r.farther.x   = end[1].place.x;
+      r.farther.y   = end[1].place.y;
+      doubt->x      = (int) end[0].place.x;
+      doubt->y      = (int) end[0].place.y;
+      doubt->reason = why_unclear (s, component, i);
+      if (doubt->reason)
+        status = celd_problem_copy (&s->doubts, i, problems);
       else
-        status = celd_problem_add (problems, (CeldProblem) {
-          .kind = CELD_PROBLEM_ARROW_UNCLEAR, .relation = CELD_NO_INDEX, .x = (int) from.x, .y = (int) from.y,
-        });
+        relations->item[kept++] = r;
     }
   relations->n = kept;
   return status;
@@ -205,6 +237,7 @@ celd_coloured_arrows_read (const CeldColourStrokes *colours, const CeldArrowStro
       status = settle (&s, component, relations, problems);
     }
   celd_free (s.end);
+  celd_problems_clear (&s.doubts);
   celd_stroke_mask_clear (&mask);
   return status;
 }

@@ -19,6 +19,7 @@
  *   arrow-profile.c      which end of a stroke is more opaque or wider
  *   crossings.c          where strokes cross
  *   crossing-strokes.c   the strokes of a connected component in which some cross
+ *   arrow-problems.c     why an arrow is unclear, and its paint
  *   arrow-strokes.c      the arrow of paint of one colour, or those of strokes that cross in it
  *   thinning.c           thins paint to lines of one pixel
  *   stroke-trace.c       the lines of thinned paint, and where they meet
@@ -37,6 +38,7 @@
  *   joined-passes.c      where arrows that fade or taper go on from line to line
  *   joined-places.c      where the ends of such lines are
  *   joined-profiles.c    the arrows of lines that fade or taper
+ *   joined-paint.c       which paint belongs to which of such arrows
  *   joined-arrows.c      arrows of one colour that share ends
  *   arrow-colours.c      the paint of each colour of a component
  *   hidden-ends.c        where arrows end whose ends are hidden below others
@@ -330,8 +332,8 @@ CeldPoint celd_stroke_centroid (const CeldArrowStroke *stroke, double from, doub
 /* The tail of an arrow is at the nearer region, its tip at the farther one. */
 typedef struct { CeldPoint tail, tip; } CeldArrowEnds;
 
-/* False if the stroke has no clear arrowhead; with `dot`, no clear dot, whose centre is then the tip. */
-bool celd_arrowhead (CeldArrowStroke *stroke, bool dot, CeldArrowEnds *ends);
+/* CELD_REASON_NONE, or why the stroke has no clear arrowhead; with `dot`, no clear dot, whose centre is then the tip. */
+CeldArrowReason celd_arrowhead (CeldArrowStroke *stroke, bool dot, CeldArrowEnds *ends);
 
 /* Sums over some paint, weighted by opacity, for its mean colour; in a layer without alpha, that less the colour of the
  * paper.  To begin with, all are 0. */
@@ -347,10 +349,10 @@ bool celd_same_paint (const CeldArrowLayer *layer, CeldPaintColour one, CeldPain
  * two? */
 bool celd_stroke_changes_colour (const CeldArrowStroke *stroke, const CeldArrowLayer *layer);
 
-/* The more opaque (CELD_ARROW_FADE) or the wider (CELD_ARROW_TAPER) end of a stroke is the tail; false if neither end
- * clearly is. */
-bool celd_arrow_profile (CeldArrowStroke *stroke, const CeldArrowLayer *layer, CeldArrowStyle style,
-                         CeldArrowEnds *ends);
+/* The more opaque (CELD_ARROW_FADE) or the wider (CELD_ARROW_TAPER) end of a stroke is the tail.  CELD_REASON_NONE, or
+ * why neither end clearly is. */
+CeldArrowReason celd_arrow_profile (CeldArrowStroke *stroke, const CeldArrowLayer *layer, CeldArrowStyle style,
+                                    CeldArrowEnds *ends);
 
 /* ------------------------------------------------------------------ crossings.c */
 
@@ -379,6 +381,20 @@ void       celd_crossing_strokes_clear (CeldCrossingStrokes *strokes);
 /* Makes `stroke` the one with index k. */
 void celd_stroke_select (const CeldCrossingStrokes *strokes, size_t k, CeldArrowStroke *stroke);
 
+/* ------------------------------------------------------------------ arrow-problems.c */
+
+/* What hides some of a colour: the paint of all colours; and of the n pixels of that colour, in reading order, whether
+ * it is seen there. */
+typedef struct { const CeldStrokeMask *component; const uint32_t *pixel; size_t n; const bool *seen; } CeldStrokeCover;
+
+/* Appends a problem of a stroke, whose pixels are in reading order, at a place; cover: of its colour, NULL if nothing
+ * hides some of it. */
+CeldStatus celd_arrow_problem_add (CeldProblems *problems, CeldArrowReason reason, CeldPoint at,
+                                   const CeldArrowStroke *stroke, const CeldStrokeCover *cover);
+
+/* Some pixel of a stroke. */
+CeldPoint celd_stroke_middle (const CeldArrowStroke *stroke);
+
 /* ------------------------------------------------------------------ arrow-strokes.c */
 
 #define CELD_LEAST_STROKE 6 /* pixels; a smaller component is a speck and ignored; chosen */
@@ -386,17 +402,16 @@ void celd_stroke_select (const CeldCrossingStrokes *strokes, size_t k, CeldArrow
 /* Is the mean colour of a stroke blue?  Such an arrow marks a crack. */
 bool celd_arrow_is_blue (const CeldArrowStroke *stroke, const CeldArrowLayer *layer);
 
-/* A problem at some pixel of a stroke that is no clear arrow. */
-CeldProblem celd_arrow_unclear (const CeldArrowStroke *stroke);
-
 /* Appends the arrow of connected paint, or those of the strokes that cross in it; *clear becomes false if neither is
  * clear.  *strokes: those that cross, to be cleared by the caller. */
 CeldStatus celd_arrow_strokes_read (CeldArrowStroke *stroke, const CeldArrowLayer *layer, CeldArrowStyle style,
                                     CeldRelations *relations, CeldCrossingStrokes *strokes, bool *clear);
 
-/* Appends a problem for each stroke of connected paint that was not clear. */
+/* Appends a problem for each stroke of connected paint that was not clear, with its own reason.  reason: that of strokes
+ * that are clear alone or look alike at both ends; CELD_REASON_NONE = there is none, but that strokes cross. */
 CeldStatus celd_arrow_strokes_report (const CeldArrowStroke *paint, const CeldCrossingStrokes *strokes,
-                                      CeldProblems *problems);
+                                      const CeldStrokeCover *cover, const CeldArrowLayer *layer, CeldArrowStyle style,
+                                      CeldArrowReason reason, CeldProblems *problems);
 
 /* ------------------------------------------------------------------ thinning.c */
 
@@ -462,15 +477,15 @@ CeldPoint celd_line_sums_point (const CeldLineSums *sums, CeldPoint prior);
 
 #define CELD_MARK_HIDDEN 0.4 /* part of a head or dot that others may hide; chosen */
 
-/* What hides some of a stroke: the paint of all colours, and of each pixel of the stroke whether its colour is seen. */
-typedef struct { const CeldStrokeMask *component; const bool *seen; } CeldStrokeCover;
+/* What was found.  width: of the lines; 0 = there are no such arrows, or only one and no cover, and nothing is
+ * appended; branched: lines meet that are no single stroke. */
+typedef struct { double width; bool branched; } CeldJoinedFound;
 
 /* Appends the arrows of connected paint of one colour whose ends meet, and a problem for each long line that is
- * unclear.  *width: of the lines; 0 = there are no such arrows, or only one and no cover, and nothing is appended.
- * cover: NULL if there are no other colours. */
+ * unclear; and to `doubts`, of each arrow, what its problem would be.  cover: NULL if there are no other colours. */
 CeldStatus celd_joined_arrows_read (CeldArrowStroke *stroke, const CeldStrokeCover *cover, const CeldArrowLayer *layer,
                                     CeldArrowStyle style, CeldRelations *relations, CeldProblems *problems,
-                                    double *width);
+                                    CeldProblems *doubts, CeldJoinedFound *found);
 
 /* ------------------------------------------------------------------ arrow-colours.c */
 

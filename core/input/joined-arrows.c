@@ -26,62 +26,116 @@ in_picture (const CeldJoinedLines *s, CeldPoint p)
                        fmin (fmax (p.y + s->mask.top, 0.5), s->stroke->height - 0.5) };
 }
 
-/* Appends the arrow of a line, or a problem in its middle. */
-static CeldStatus
-add_line (const CeldJoinedLines *s, size_t k, const CeldLineArrow *arrow, bool crack, CeldRelations *relations,
-          CeldProblems *problems)
-{
-  CeldPoint  middle = s->graph.line[k].at[s->graph.line[k].n / 2];
-  CeldStatus status = CELD_OK;
-
-  if (arrow->clear)
-    {
-      CeldPoint nearer = in_picture (s, arrow->nearer), farther = in_picture (s, arrow->farther);
-
-      status = celd_relation_add (relations, (CeldRelation) {
-        .nearer = { .x = nearer.x, .y = nearer.y }, .farther = { .x = farther.x, .y = farther.y },
-        .crack  = crack, .weight = 1, .gap = 1, .source = CELD_SOURCE_ARROW,
-      });
-    }
-  else
-    status = celd_problem_add (problems, (CeldProblem) {
-      .kind = CELD_PROBLEM_ARROW_UNCLEAR, .relation = CELD_NO_INDEX,
-      .x = (int) middle.x + s->mask.left, .y = (int) middle.y + s->mask.top,
-    });
-  return status;
-}
-
 /* Is an arrow of a line no longer than a head, of which it may be a barb if the rest is hidden? */
 static bool
 is_as_short_as_head (const CeldJoinedLines *s, const CeldLineArrow *arrow)
 {
-  return arrow->clear && celd_points_apart (arrow->nearer, arrow->farther) < CELD_HEAD_REACH * s->graph.width;
+  return !arrow->unclear && celd_points_apart (arrow->nearer, arrow->farther) < CELD_HEAD_REACH * s->graph.width;
+}
+
+/* ------------------------------------------------------------------ what is found */
+
+/* While arrows of lines are told of.  Of each line: whether its arrow is; of each pixel of the stroke: the line whose
+ * arrow it belongs to; pixel: room for those of one arrow. */
+typedef struct { bool *told; uint32_t *owner, *pixel; } Telling;
+
+static CeldStatus
+telling_new (const CeldJoinedLines *s, const CeldLineArrow *arrows, Telling *t)
+{
+  *t = (Telling) {
+    .told  = celd_alloc (s->graph.n_lines, sizeof *t->told),
+    .owner = celd_alloc (s->stroke->n, sizeof *t->owner),
+    .pixel = celd_alloc (s->stroke->n, sizeof *t->pixel),
+  };
+  if (!t->told || !t->owner || !t->pixel)
+    return CELD_NO_MEMORY;
+  for (size_t k = 0; k < s->graph.n_lines; k++)
+    t->told[k] = is_long (s, k) && arrows[k].first == k;
+  return celd_joined_paint_divide (s, arrows, t->told, t->owner);
+}
+
+static void
+telling_clear (Telling *t)
+{
+  celd_free (t->told);
+  celd_free (t->owner);
+  celd_free (t->pixel);
+}
+
+/* Appends the arrow of a line as a problem in its middle. */
+static CeldStatus
+add_problem (const CeldJoinedLines *s, size_t k, CeldArrowReason reason, const Telling *t, CeldProblems *problems)
+{
+  CeldPoint       middle = s->graph.line[k].at[s->graph.line[k].n / 2];
+  CeldPoint       at = { middle.x + s->mask.left, middle.y + s->mask.top };
+  CeldArrowStroke paint = *s->stroke;
+
+  paint.pixel = t->pixel;
+  paint.n     = 0;
+  for (size_t i = 0; i < s->stroke->n; i++)
+    if (t->owner[i] == k)
+      t->pixel[paint.n++] = s->stroke->pixel[i];
+  return celd_arrow_problem_add (problems, reason, at, &paint, s->cover);
+}
+
+static CeldStatus
+add_relation (const CeldJoinedLines *s, const CeldLineArrow *arrow, bool crack, CeldRelations *relations)
+{
+  CeldPoint nearer = in_picture (s, arrow->nearer), farther = in_picture (s, arrow->farther);
+
+  return celd_relation_add (relations, (CeldRelation) {
+    .nearer = { .x = nearer.x, .y = nearer.y }, .farther = { .x = farther.x, .y = farther.y },
+    .crack  = crack, .weight = 1, .gap = 1, .source = CELD_SOURCE_ARROW,
+  });
+}
+
+/* Appends the arrow of each long line, or a problem. */
+static CeldStatus
+tell (const CeldJoinedLines *s, const CeldLineArrow *arrows, bool crack, CeldRelations *relations,
+      CeldProblems *problems, CeldProblems *doubts)
+{
+  Telling    t;
+  CeldStatus status = telling_new (s, arrows, &t);
+
+  for (size_t k = 0; k < s->graph.n_lines && status == CELD_OK; k++)
+    if (t.told[k] && arrows[k].unclear)
+      status = add_problem (s, k, arrows[k].unclear, &t, problems);
+    else if (t.told[k])
+      {
+        status = add_relation (s, &arrows[k], crack, relations);
+        if (status == CELD_OK)
+          status = add_problem (s, k, CELD_REASON_NONE, &t, doubts);
+      }
+  telling_clear (&t);
+  return status;
 }
 
 /* Reads all lines.  *n: arrows; fewer than two are none, because a single stroke that is unclear stays so, unless some
  * of its paint is hidden. */
 static CeldStatus
-read_lines (CeldJoinedLines *s, const CeldArrowLayer *layer, CeldRelations *relations, CeldProblems *problems, int *n)
+read_lines (CeldJoinedLines *s, const CeldArrowLayer *layer, CeldRelations *relations, CeldProblems *problems,
+            CeldProblems *doubts, int *n)
 {
-  bool            crack = celd_arrow_is_blue (s->stroke, layer);
-  bool            profiles = s->style == CELD_ARROW_FADE || s->style == CELD_ARROW_TAPER;
+  bool           crack = celd_arrow_is_blue (s->stroke, layer);
+  bool           profiles = s->style == CELD_ARROW_FADE || s->style == CELD_ARROW_TAPER;
   CeldLineArrow *arrows;
   CeldStatus     status = profiles ? celd_joined_profiles_read (s, layer, &arrows)
-                                    : celd_joined_heads_read (s, &arrows);
+                                   : celd_joined_heads_read (s, &arrows);
 
   for (size_t k = 0; k < s->graph.n_lines && status == CELD_OK && s->hidden; k++)
     if (is_as_short_as_head (s, &arrows[k]))
-      arrows[k].clear = false;
+      arrows[k].unclear = CELD_REASON_SHORT;
   for (size_t k = 0; k < s->graph.n_lines && status == CELD_OK; k++)
-    *n += is_long (s, k) && arrows[k].clear;
+    *n += is_long (s, k) && arrows[k].first == k && !arrows[k].unclear;
   if (*n == 1 && !s->hidden)
     *n = 0;
-  for (size_t k = 0; k < s->graph.n_lines && status == CELD_OK && *n; k++)
-    if (is_long (s, k) && !arrows[k].part)
-      status = add_line (s, k, &arrows[k], crack, relations, problems);
+  if (status == CELD_OK && *n)
+    status = tell (s, arrows, crack, relations, problems, doubts);
   celd_free (arrows);
   return status;
 }
+
+/* ------------------------------------------------------------------ */
 
 /* Finds the pixels of the mask that have paint of other colours. */
 static CeldStatus
@@ -110,11 +164,22 @@ find_hidden (CeldJoinedLines *s, const CeldStrokeCover *cover)
   return CELD_OK;
 }
 
+/* Do more than two lines meet anywhere, or very many at all? */
+static bool
+is_branched (const CeldJoinedLines *s)
+{
+  for (size_t i = 0; i < 2 * s->graph.n_lines && s->graph.n_lines <= MOST_LINES; i++)
+    if (celd_joined_lines_at (s, i) > 2)
+      return true;
+  return s->graph.n_lines > MOST_LINES;
+}
+
 CeldStatus
 celd_joined_arrows_read (CeldArrowStroke *stroke, const CeldStrokeCover *cover, const CeldArrowLayer *layer,
-                         CeldArrowStyle style, CeldRelations *relations, CeldProblems *problems, double *width)
+                         CeldArrowStyle style, CeldRelations *relations, CeldProblems *problems, CeldProblems *doubts,
+                         CeldJoinedFound *found)
 {
-  CeldJoinedLines s = { .style = style, .stroke = stroke };
+  CeldJoinedLines s = { .style = style, .stroke = stroke, .cover = cover };
   int             n = 0;
   CeldStatus      status = celd_stroke_mask_new (stroke, &s.mask);
 
@@ -124,9 +189,11 @@ celd_joined_arrows_read (CeldArrowStroke *stroke, const CeldStrokeCover *cover, 
     status = CELD_NO_MEMORY;
   if (status == CELD_OK && cover)
     status = find_hidden (&s, cover);
+  if (status == CELD_OK)
+    found->branched = is_branched (&s);
   if (status == CELD_OK && s.graph.n_lines && s.graph.n_lines <= MOST_LINES)
-    status = read_lines (&s, layer, relations, problems, &n);
-  *width = n ? s.graph.width : 0;
+    status = read_lines (&s, layer, relations, problems, doubts, &n);
+  found->width = n ? s.graph.width : 0;
   celd_free (s.hidden);
   celd_free (s.explained);
   celd_stroke_graph_clear (&s.graph);

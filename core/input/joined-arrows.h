@@ -24,12 +24,14 @@ typedef struct
   CeldArrowStroke *stroke;    /* the connected paint; borrowed */
   CeldStrokeMask   mask;
   CeldStrokeGraph  graph;
+  const CeldStrokeCover *cover; /* NULL: there are no other colours; borrowed */
   uint8_t         *hidden;    /* of each pixel of the mask: has it paint of other colours?  NULL: there are none */
   uint8_t         *explained; /* the same size: is it hidden, or does it belong to a line? */
 } CeldJoinedLines;
 
-/* The arrow of a line, if it is clear.  part: the line belongs to the arrow of another one. */
-typedef struct { CeldPoint nearer, farther; bool clear, part; } CeldLineArrow;
+/* The arrow of a line.  unclear: why it has no ends; first: the line whose arrow this one is a part of, most often
+ * itself. */
+typedef struct { CeldPoint nearer, farther; CeldArrowReason unclear; size_t first; } CeldLineArrow;
 
 /* ------------------------------------------------------------------ joined-lines.c */
 
@@ -157,12 +159,12 @@ void celd_line_values_fit (const CeldLineValues *values, size_t from, size_t to,
 /* A point of a line where two arrows meet; vague: they may meet elsewhere. */
 typedef struct { size_t at; bool vague; } CeldLineTurn;
 
-/* How the opacity or width of a line changes.  known: there is enough of the line, and values only fall or only rise;
- * value: at its ends, led on to their nodes; tail: the end that is nearer, -1 = they hardly change; colour: of a third
+/* How the opacity or width of a line changes.  seen: there is enough of the line; known: then values only fall or only
+ * rise; value: at its ends, led on to their nodes; tail: the end that is nearer, -1 = they hardly change; colour: of a third
  * of the line at each end; turn: where arrows meet in a line that is not known, in their order. */
 typedef struct
 {
-  bool            known;
+  bool            seen, known;
   double          value[2];
   int             tail;
   CeldPaintColour colour[2];
@@ -314,6 +316,12 @@ CeldStatus celd_head_choice_find (CeldHeadChoice *choice);
 
 /* The set of ends of a node that have heads. */
 unsigned celd_head_choice_at (const CeldHeadChoice *choice, int node);
+
+/* ------------------------------------------------------------------ joined-paint.c */
+
+/* Of each pixel of the stroke: the first line of the arrow that it belongs to, of those of which is told. */
+CeldStatus celd_joined_paint_divide (const CeldJoinedLines *lines, const CeldLineArrow *arrows, const bool *told,
+                                     uint32_t *owner);
 
 /* ------------------------------------------------------------------ joined-heads.c, joined-profiles.c */
 

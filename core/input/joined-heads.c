@@ -243,34 +243,59 @@ is_bare (const CeldHeadChoice *s, size_t end)
                           node->cost[0] + BARE_MARGIN <= node->cost[1]));
 }
 
-/* Are all lines of an arrow long enough, without other paint along them? */
+/* Are all lines of an arrow long enough? */
 static bool
-is_plausible (const CeldHeadChoice *s, size_t chain)
+has_room (const CeldHeadChoice *s, size_t chain)
+{
+  for (size_t k = 0; k < s->lines->graph.n_lines; k++)
+    if (s->chain[k] == chain && !is_long_enough (s->lines, k))
+      return false;
+  return true;
+}
+
+/* Are they without other paint along them? */
+static bool
+is_alone (const CeldHeadChoice *s, size_t chain)
 {
   const CeldJoinedLines *lines = s->lines;
 
   for (size_t k = 0; k < lines->graph.n_lines; k++)
-    if (s->chain[k] == chain && (!is_long_enough (lines, k) ||
-                                 !celd_joined_is_alone (lines, k, (size_t) (CELD_NODE_REACH * lines->graph.width))))
+    if (s->chain[k] == chain &&
+        !celd_joined_is_alone (lines, k, (size_t) (CELD_NODE_REACH * lines->graph.width)))
       return false;
   return true;
+}
+
+/* Finds the ends of the arrow of a chain of lines, or why it has none. */
+static CeldArrowReason
+find_ends (const CeldHeadChoice *s, size_t chain, CeldPoint *marked, CeldPoint *bare)
+{
+  size_t head = outer_end (s, chain, true), tail = outer_end (s, chain, false);
+
+  if (s->heads[chain] != 1)
+    return CELD_REASON_ALIKE;
+  if (head == NO_END || tail == NO_END || !is_clear (s, chain))
+    return CELD_REASON_MEETING;
+  if (!has_room (s, chain))
+    return CELD_REASON_SHORT;
+  if (!is_alone (s, chain) || !find_place (s, head, marked) || !find_place (s, tail, bare))
+    return CELD_REASON_MEETING;
+  if (!is_bare (s, tail))
+    return celd_joined_is_at_frame (s->lines, *bare) ? CELD_REASON_FRAME : CELD_REASON_ALIKE;
+  return CELD_REASON_NONE;
 }
 
 /* The arrow of a chain of lines.  A head is the farther end, a dot the nearer one. */
 static CeldLineArrow
 arrow_of (const CeldHeadChoice *s, size_t chain)
 {
-  size_t         head = outer_end (s, chain, true), tail = outer_end (s, chain, false);
-  bool           dot = s->lines->style == CELD_ARROW_DOT;
-  CeldLineArrow  arrow = { .clear = false };
-  CeldPoint      marked, other;
+  bool          dot = s->lines->style == CELD_ARROW_DOT;
+  CeldPoint     marked = { 0, 0 }, bare = { 0, 0 };
+  CeldLineArrow arrow = { .first = chain };
 
-  if (s->heads[chain] != 1 || head == NO_END || tail == NO_END || !is_clear (s, chain) || !is_plausible (s, chain) ||
-      !find_place (s, head, &marked) || !find_place (s, tail, &other) || !is_bare (s, tail))
-    return arrow;
-  arrow.clear   = true;
-  arrow.nearer  = dot ? marked : other;
-  arrow.farther = dot ? other : marked;
+  arrow.unclear = find_ends (s, chain, &marked, &bare);
+  arrow.nearer  = dot ? marked : bare;
+  arrow.farther = dot ? bare : marked;
   return arrow;
 }
 
@@ -327,10 +352,7 @@ celd_joined_heads_read (CeldJoinedLines *lines, CeldLineArrow **arrows)
   if (status == CELD_OK)
     status = celd_head_choice_find (&s);
   for (size_t k = 0; k < lines->graph.n_lines && status == CELD_OK; k++)
-    if (s.chain[k] == k)
-      (*arrows)[k] = arrow_of (&s, k);
-    else
-      (*arrows)[k].part = true;
+    (*arrows)[k] = s.chain[k] == k ? arrow_of (&s, k) : (CeldLineArrow) { .first = s.chain[k] };
   choice_clear (&s);
   return status;
 }

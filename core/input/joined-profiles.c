@@ -145,32 +145,78 @@ is_one_arrow (const CeldProfileReading *r, size_t end, int *direction)
     }
 }
 
-/* The arrow whose lines begin at an end. */
-static CeldLineArrow
-arrow_from (const CeldProfileReading *r, size_t end)
+/* Why lines from an end on are no clear arrow, of which one is not. */
+static CeldArrowReason
+why_not_one (const CeldProfileReading *r, size_t end)
 {
-  int            direction;
-  bool           clear = is_one_arrow (r, end, &direction);
-  size_t         far = far_end (r, end), tail = direction > 0 ? end : far, tip = direction > 0 ? far : end;
-  CeldLineArrow arrow = { .clear = false };
+  for (;; end = r->next[end])
+    {
+      if (celd_joined_runs_along_frame (r->lines, end / 2))
+        return CELD_REASON_FRAME;
+      if (!r->alone[end / 2])
+        return CELD_REASON_MEETING;
+      if (!r->profile[end / 2].seen)
+        return r->lines->hidden ? CELD_REASON_HIDDEN : CELD_REASON_SHORT;
+      end ^= 1;
+      if (r->next[end] == CELD_NO_END)
+        return CELD_REASON_UNEVEN;
+      if (r->doubt[end] || r->doubt[r->next[end]])
+        return CELD_REASON_MEETING;
+    }
+}
 
-  arrow.clear = clear && direction && !r->doubt[tail] && !r->doubt[tip] && !celd_joined_meets_doubt (r, tail) &&
-            !celd_joined_meets_doubt (r, tip) && celd_value_at (r, tip) <= (1 - SIGNAL) * celd_value_at (r, tail) &&
-            !(r->lines->hidden && celd_value_at (r, tip) > MOST_TIP) &&
-            celd_joined_place (r->lines, tail, &arrow.nearer) && celd_joined_place (r->lines, tip, &arrow.farther);
-  return arrow;
+/* Does nothing show where the arrow of an end ends? */
+static bool
+is_doubtful (const CeldProfileReading *r, size_t end)
+{
+  return r->doubt[end] || celd_joined_meets_doubt (r, end);
+}
+
+/* Finds the place of an end, or why it is not clear. */
+static CeldArrowReason
+find_place (const CeldProfileReading *r, size_t end, CeldPoint *place)
+{
+  if (celd_joined_place (r->lines, end, place))
+    return CELD_REASON_NONE;
+  return celd_joined_is_free (r->lines, end) && celd_joined_is_at_frame (r->lines, *place) ? CELD_REASON_FRAME
+                                                                                            : CELD_REASON_MEETING;
+}
+
+/* Finds the ends of the arrow whose lines begin at an end, or why it has none. */
+static CeldArrowReason
+find_ends (const CeldProfileReading *r, size_t end, CeldPoint *nearer, CeldPoint *farther)
+{
+  int             direction;
+  bool            clear = is_one_arrow (r, end, &direction);
+  size_t          far = far_end (r, end), tail = direction > 0 ? end : far, tip = direction > 0 ? far : end;
+  CeldArrowReason reason;
+
+  if (!clear)
+    return why_not_one (r, end);
+  if (!direction)
+    return CELD_REASON_ALIKE;
+  if (is_doubtful (r, tail) || is_doubtful (r, tip))
+    return CELD_REASON_MEETING;
+  if (celd_value_at (r, tip) > (1 - SIGNAL) * celd_value_at (r, tail))
+    return CELD_REASON_ALIKE;
+  if (r->lines->hidden && celd_value_at (r, tip) > MOST_TIP)
+    return CELD_REASON_HIDDEN;
+  reason = find_place (r, tail, nearer);
+  return reason ? reason : find_place (r, tip, farther);
 }
 
 /* Each chain of lines that is none of a ring has two ends: its arrow is that of the line of the first one. */
 static void
 find_arrows (const CeldProfileReading *r, CeldLineArrow *arrows)
 {
+  for (size_t k = 0; k < r->lines->graph.n_lines; k++)
+    arrows[k] = (CeldLineArrow) { .unclear = CELD_REASON_MEETING, .first = k };
   for (size_t i = 0; i < 2 * r->lines->graph.n_lines; i++)
     if (r->next[i] == CELD_NO_END && far_end (r, i) > i)
       {
         for (size_t k = i ^ 1; r->next[k] != CELD_NO_END; k = r->next[k] ^ 1)
-          arrows[r->next[k] / 2].part = true;
-        arrows[i / 2] = arrow_from (r, i);
+          arrows[r->next[k] / 2].first = i / 2;
+        arrows[i / 2].unclear = find_ends (r, i, &arrows[i / 2].nearer, &arrows[i / 2].farther);
       }
 }
 

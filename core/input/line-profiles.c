@@ -211,7 +211,8 @@ celd_line_profile_find (const CeldJoinedLines *s, const CeldArrowLayer *layer, s
   CeldStatus     status = celd_line_values_new (s, layer, k, most, &v);
 
   *p = (CeldLineProfile) { .tail = -1 };
-  if (status == CELD_OK && (double) v.n >= LEAST_ALONE * s->graph.width + 4)
+  p->seen = status == CELD_OK && (double) v.n >= LEAST_ALONE * s->graph.width + 4;
+  if (p->seen)
     status = find_profile (&v, layer, p);
   celd_free (v.value);
   return status;

@@ -103,7 +103,8 @@ report_overruled (const CeldSegmentTask *task, const CeldStrokes *strokes, const
     if (is_painted (task, outcome[k].label) && 2 * outcome[k].overruled > outcome[k].area &&
         LEAST_STROKE_SHARE * outcome[k].area >= task->palette.item[outcome[k].label - 1].seeds)
       status = celd_problem_add (problems, (CeldProblem) {
-        CELD_PROBLEM_STROKE_OVERRULED, outcome[k].x, outcome[k].y, outcome[k].label, outcome[k].other, CELD_NO_INDEX });
+        .kind = CELD_PROBLEM_STROKE_OVERRULED, .x = outcome[k].x, .y = outcome[k].y, .label = outcome[k].label,
+        .other = outcome[k].other, .relation = CELD_NO_INDEX });
   celd_free (outcome);
   return status;
 }
@@ -125,7 +126,8 @@ report_lost (const CeldSegmentTask *task, const CeldSeedRows *seeds, CeldProblem
           continue;
         reported[l] = true;
         status  = celd_problem_add (problems, (CeldProblem) {
-          CELD_PROBLEM_COLOUR_LOST, seeds->row[y].run[i].x, y, l, 0, CELD_NO_INDEX });
+          .kind = CELD_PROBLEM_COLOUR_LOST, .x = seeds->row[y].run[i].x, .y = y, .label = l,
+          .relation = CELD_NO_INDEX });
       }
   celd_free (reported);
   return status;
@@ -237,7 +239,8 @@ report_unreached (const CeldSegmentTask *task, const CeldLabels *labels, CeldPro
         const CeldBasin *basin = &b->basin[part[k].basin - 1];
 
         status = celd_problem_add (problems, (CeldProblem) {
-          CELD_PROBLEM_REGION_UNREACHED, basin->x, basin->y, CELD_AT (labels, basin->x, basin->y), 0, CELD_NO_INDEX });
+          .kind = CELD_PROBLEM_REGION_UNREACHED, .x = basin->x, .y = basin->y,
+          .label = CELD_AT (labels, basin->x, basin->y), .relation = CELD_NO_INDEX });
       }
   celd_strokes_clear (&strokes);
   celd_free (part);

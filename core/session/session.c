@@ -365,10 +365,10 @@ celd_session_relations (const CeldSession *session)
 const CeldProblems *
 celd_session_problems (CeldSession *session)
 {
-  session->all_problems.n = 0;
+  session->all_problems.n = session->all_problems.n_runs = 0;
   for (int stage = 0; stage < N_STAGES; stage++)
     for (size_t i = 0; session->valid[stage] && i < session->problems[stage].n; i++)
-      if (celd_problem_add (&session->all_problems, session->problems[stage].item[i]) != CELD_OK)
+      if (celd_problem_copy (&session->problems[stage], i, &session->all_problems) != CELD_OK)
         return NULL;
   return &session->all_problems;
 }

@@ -279,8 +279,8 @@ report_splits (const CeldSplits *splits, CeldProblems *problems)
 
   for (size_t i = 0; i < splits->n && status == CELD_OK; i++)
     status = celd_problem_add (problems, (CeldProblem) {
-      CELD_PROBLEM_REGION_SPLIT, splits->item[i].x[1], splits->item[i].y[1], splits->item[i].label,
-      splits->item[i].other, CELD_NO_INDEX });
+      .kind = CELD_PROBLEM_REGION_SPLIT, .x = splits->item[i].x[1], .y = splits->item[i].y[1],
+      .label = splits->item[i].label, .other = splits->item[i].other, .relation = CELD_NO_INDEX });
   return status;
 }
 

@@ -87,7 +87,7 @@ write_json (const char *path, const CliMotion *motion, const CliFrameState *stat
 static bool
 paint_frame (const CliMotion *motion, const CliFrameState *state, CeldPaint *paint)
 {
-  CeldProblems problems = { g_new0 (CeldProblem, state->notes->len + 1), 0 };
+  CeldProblems problems = { .item = g_new0 (CeldProblem, state->notes->len + 1) };
   CliLayers    drawing = { .width = motion->width, .height = motion->height };
   CliLayers    labels = { .width = motion->width, .height = motion->height };
   CliOptions   none = { 0 };

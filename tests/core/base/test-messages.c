@@ -19,9 +19,11 @@ problems_say_what_and_where (void)
   CeldPalette   palette = { region, 2 };
   CeldRelation  relation = { .source = CELD_SOURCE_TEXT, .line = 3, .column = 9 };
   CeldRelations relations = { &relation, 1 };
-  CeldProblem   overruled = { CELD_PROBLEM_STROKE_OVERRULED, 12, 34, 1, 2, CELD_NO_INDEX };
-  CeldProblem   outside = { CELD_PROBLEM_OUTSIDE, -1, -1, 0, 0, 0 };
-  CeldProblem   unsure = { CELD_PROBLEM_HIDDEN_UNSURE, 56, 78, 1, 0, CELD_NO_INDEX };
+  CeldProblem   overruled = { .kind = CELD_PROBLEM_STROKE_OVERRULED, .x = 12, .y = 34, .label = 1, .other = 2,
+                              .relation = CELD_NO_INDEX };
+  CeldProblem   outside = { .kind = CELD_PROBLEM_OUTSIDE, .x = -1, .y = -1 };
+  CeldProblem   unsure = { .kind = CELD_PROBLEM_HIDDEN_UNSURE, .x = 56, .y = 78, .label = 1,
+                              .relation = CELD_NO_INDEX };
   char          text[400], small[8] = "xxxxxxx";
 
   celd_problem_text (&overruled, &palette, &relations, NULL, text, sizeof text);
@@ -58,7 +60,7 @@ sentences_are_translated_before_they_are_filled_in (void)
   CeldPalette   palette = { region, 2 };
   CeldRelation  relation = { .source = CELD_SOURCE_TEXT, .line = 3, .column = 9 };
   CeldRelations relations = { &relation, 1 };
-  CeldProblem   same = { CELD_PROBLEM_SAME_REGION, -1, -1, 2, 0, 0 };
+  CeldProblem   same = { .kind = CELD_PROBLEM_SAME_REGION, .x = -1, .y = -1, .label = 2 };
   char          text[400];
 
   celd_problem_text (&same, &palette, &relations, NULL, text, sizeof text);

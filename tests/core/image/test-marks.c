@@ -23,7 +23,7 @@ mark (int x, int y)
 {
   CeldProblem problem = { .kind = CELD_PROBLEM_REGION_UNREACHED, .x = x, .y = y, .relation = CELD_NO_INDEX };
 
-  celd_problems_paint (&(CeldProblems) { &problem, 1 }, &paint);
+  celd_problems_paint (&(CeldProblems) { .item = &problem, .n = 1 }, &paint);
 }
 
 static bool

@@ -76,7 +76,8 @@ a_stroke_that_lost_its_majority_is_overruled (void)
   report (&c, paper, painted, labels, 3, false);
   NEAR (c.problems.n, 1, 0);
   if (c.problems.n == 1)
-    check_problem (&c, 0, (CeldProblem) { CELD_PROBLEM_STROKE_OVERRULED, 3, 2, 2, 3, CELD_NO_INDEX });
+    check_problem (&c, 0, (CeldProblem) { .kind = CELD_PROBLEM_STROKE_OVERRULED, .x = 3, .y = 2, .label = 2, .other = 3,
+                                          .relation = CELD_NO_INDEX });
   case_close (&c);
 }
 
@@ -111,7 +112,8 @@ a_lost_colour_is_reported_once (void)
   report (&c, paper, painted, labels, 2, true);
   NEAR (c.problems.n, 1, 0);
   if (c.problems.n == 1)
-    check_problem (&c, 0, (CeldProblem) { CELD_PROBLEM_COLOUR_LOST, 4, 1, 2, 0, CELD_NO_INDEX });
+    check_problem (&c, 0, (CeldProblem) { .kind = CELD_PROBLEM_COLOUR_LOST, .x = 4, .y = 1, .label = 2,
+                                          .relation = CELD_NO_INDEX });
   case_close (&c);
 }
 
@@ -131,7 +133,8 @@ closed_regions_without_a_stroke_are_unreached (void)
   report (&c, enclosures, painted, labels, 2, false);
   NEAR (c.problems.n, 1, 0);
   if (c.problems.n == 1)
-    check_problem (&c, 0, (CeldProblem) { CELD_PROBLEM_REGION_UNREACHED, 3, 3, 2, 0, CELD_NO_INDEX });
+    check_problem (&c, 0, (CeldProblem) { .kind = CELD_PROBLEM_REGION_UNREACHED, .x = 3, .y = 3, .label = 2,
+                                          .relation = CELD_NO_INDEX });
   case_close (&c);
   report (&c, enclosures, painted, labels, 2, true);
   NEAR (c.problems.n, 0, 0);
