@@ -182,23 +182,61 @@ why_crossing_unclear (CeldArrowStroke *stroke, const CeldArrowLayer *layer, Celd
   return two ? CELD_REASON_UNEVEN : why ? why : CELD_REASON_MEETING;
 }
 
+/* The first stroke from k on that is large enough to be reported; strokes->n = none. */
+static size_t
+next_told (const CeldCrossingStrokes *strokes, size_t k)
+{
+  while (k < strokes->n && strokes->first[k + 1] - strokes->first[k] < CELD_LEAST_STROKE)
+    k++;
+  return k;
+}
+
+/* Makes `stroke` the first one that is reported, k, with what belongs to none of those reported. */
+static void
+add_rest (const CeldArrowStroke *paint, const CeldCrossingStrokes *strokes, size_t k, CeldArrowStroke *stroke,
+          uint32_t *pixel)
+{
+  float *mark = paint->distance;
+
+  for (size_t j = next_told (strokes, k + 1); j < strokes->n; j = next_told (strokes, j + 1))
+    for (size_t i = strokes->first[j]; i < strokes->first[j + 1]; i++)
+      mark[strokes->pixel[i]] = 0;
+  for (size_t i = strokes->first[k]; i < strokes->first[k + 1]; i++)
+    mark[strokes->pixel[i]] = INFINITY;
+  stroke->pixel = pixel;
+  stroke->n     = 0;
+  for (size_t i = 0; i < paint->n; i++)
+    if (mark[paint->pixel[i]] > 0)
+      pixel[stroke->n++] = paint->pixel[i];
+  for (size_t i = 0; i < paint->n; i++)
+    mark[paint->pixel[i]] = INFINITY;
+}
+
 CeldStatus
 celd_arrow_strokes_report (const CeldArrowStroke *paint, const CeldCrossingStrokes *strokes,
                            const CeldStrokeCover *cover, const CeldArrowLayer *layer, CeldArrowStyle style,
                            CeldArrowReason reason, CeldProblems *problems)
 {
   CeldArrowStroke stroke = *paint;
-  CeldStatus      status = CELD_OK;
+  size_t          first = next_told (strokes, 0);
+  uint32_t       *pixel = celd_alloc (paint->n, sizeof *pixel);
+  CeldStatus      status = pixel ? CELD_OK : CELD_NO_MEMORY;
 
-  if (!strokes->n)
-    return celd_arrow_problem_add (problems, why_unclear (&stroke, layer, style, reason), celd_stroke_middle (paint),
-                                   paint, cover);
-  for (size_t k = 0; k < strokes->n && status == CELD_OK; k++)
+  if (status == CELD_OK && first == strokes->n)
+    status = celd_arrow_problem_add (problems, why_unclear (&stroke, layer, style, reason), celd_stroke_middle (paint),
+                                     paint, cover);
+  for (size_t k = first; k < strokes->n && status == CELD_OK; k = next_told (strokes, k + 1))
     {
+      CeldArrowReason why;
+      CeldPoint       middle;
+
       celd_stroke_select (strokes, k, &stroke);
-      if (stroke.n >= CELD_LEAST_STROKE)
-        status = celd_arrow_problem_add (problems, why_crossing_unclear (&stroke, layer, style, reason),
-                                         celd_stroke_middle (&stroke), &stroke, cover);
+      why    = why_crossing_unclear (&stroke, layer, style, reason);
+      middle = celd_stroke_middle (&stroke);
+      if (k == first)
+        add_rest (paint, strokes, k, &stroke, pixel);
+      status = celd_arrow_problem_add (problems, why, middle, &stroke, cover);
     }
+  celd_free (pixel);
   return status;
 }

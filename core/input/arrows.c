@@ -157,8 +157,7 @@ read_component (CeldArrowStroke *stroke, const CeldArrowLayer *layer, CeldArrowS
 
       status = celd_joined_arrows_read (stroke, NULL, layer, style, relations, problems, NULL, &found);
       if (status == CELD_OK && !(found.width > 0))
-        status = celd_arrow_strokes_report (stroke, &strokes, NULL, layer, style,
-                                            found.branched && !strokes.n ? CELD_REASON_MEETING : CELD_REASON_NONE,
+        status = celd_arrow_strokes_report (stroke, &strokes, NULL, layer, style, celd_joined_reason (&found, &strokes),
                                             problems);
     }
   celd_crossing_strokes_clear (&strokes);

@@ -137,8 +137,7 @@ read_part (ColouredArrows *s, CeldArrowStroke *stroke, size_t k, CeldRelations *
     status = add_ends (s, stroke, k, relations, before, found.width);
   else if (status == CELD_OK)
     status = celd_arrow_strokes_report (stroke, &strokes, &cover, s->paint.layer, s->style,
-                                        !readable || !marked ? CELD_REASON_HIDDEN
-                                        : found.branched && !strokes.n ? CELD_REASON_MEETING : CELD_REASON_NONE,
+                                        readable && marked ? celd_joined_reason (&found, &strokes) : CELD_REASON_HIDDEN,
                                         problems);
   celd_crossing_strokes_clear (&strokes);
   return status;

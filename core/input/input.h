@@ -478,8 +478,15 @@ CeldPoint celd_line_sums_point (const CeldLineSums *sums, CeldPoint prior);
 #define CELD_MARK_HIDDEN 0.4 /* part of a head or dot that others may hide; chosen */
 
 /* What was found.  width: of the lines; 0 = there are no such arrows, or only one and no cover, and nothing is
- * appended; branched: lines meet that are no single stroke. */
-typedef struct { double width; bool branched; } CeldJoinedFound;
+ * appended; branched: lines meet that are no single stroke; crossed: some may just cross. */
+typedef struct { double width; bool branched, crossed; } CeldJoinedFound;
+
+/* Why there are no arrows in paint, of which some strokes cross, if it is of more than one. */
+static inline CeldArrowReason
+celd_joined_reason (const CeldJoinedFound *found, const CeldCrossingStrokes *strokes)
+{
+  return found->branched || (found->crossed && !strokes->n) ? CELD_REASON_MEETING : CELD_REASON_NONE;
+}
 
 /* Appends the arrows of connected paint of one colour whose ends meet, and a problem for each long line that is
  * unclear; and to `doubts`, of each arrow, what its problem would be.  cover: NULL if there are no other colours. */

@@ -43,14 +43,15 @@ static CeldStatus
 telling_new (const CeldJoinedLines *s, const CeldLineArrow *arrows, Telling *t)
 {
   *t = (Telling) {
-    .told  = celd_alloc (s->graph.n_lines, sizeof *t->told),
+    .told  = celd_alloc0 (s->graph.n_lines, sizeof *t->told),
     .owner = celd_alloc (s->stroke->n, sizeof *t->owner),
     .pixel = celd_alloc (s->stroke->n, sizeof *t->pixel),
   };
   if (!t->told || !t->owner || !t->pixel)
     return CELD_NO_MEMORY;
   for (size_t k = 0; k < s->graph.n_lines; k++)
-    t->told[k] = is_long (s, k) && arrows[k].first == k;
+    if (is_long (s, k) && (arrows[k].first == k || arrows[arrows[k].first].unclear))
+      t->told[arrows[k].first] = true;
   return celd_joined_paint_divide (s, arrows, t->told, t->owner);
 }
 
@@ -89,7 +90,7 @@ add_relation (const CeldJoinedLines *s, const CeldLineArrow *arrow, bool crack, 
   });
 }
 
-/* Appends the arrow of each long line, or a problem. */
+/* Appends the arrow of each long line, or a problem of those that have one. */
 static CeldStatus
 tell (const CeldJoinedLines *s, const CeldLineArrow *arrows, bool crack, CeldRelations *relations,
       CeldProblems *problems, CeldProblems *doubts)
@@ -164,14 +165,19 @@ find_hidden (CeldJoinedLines *s, const CeldStrokeCover *cover)
   return CELD_OK;
 }
 
-/* Do more than two lines meet anywhere, or very many at all? */
-static bool
-is_branched (const CeldJoinedLines *s)
+/* Do lines meet, or very many at all, that are no single stroke?  Do some only cross? */
+static void
+find_branches (const CeldJoinedLines *s, CeldJoinedFound *found)
 {
-  for (size_t i = 0; i < 2 * s->graph.n_lines && s->graph.n_lines <= MOST_LINES; i++)
+  found->branched = s->graph.n_lines > MOST_LINES;
+  for (size_t i = 0; i < 2 * s->graph.n_lines && !found->branched; i++)
     if (celd_joined_lines_at (s, i) > 2)
-      return true;
-  return s->graph.n_lines > MOST_LINES;
+      {
+        bool cross = celd_joined_cross_at (s, i);
+
+        found->crossed |= cross;
+        found->branched = !cross;
+      }
 }
 
 CeldStatus
@@ -190,7 +196,7 @@ celd_joined_arrows_read (CeldArrowStroke *stroke, const CeldStrokeCover *cover, 
   if (status == CELD_OK && cover)
     status = find_hidden (&s, cover);
   if (status == CELD_OK)
-    found->branched = is_branched (&s);
+    find_branches (&s, found);
   if (status == CELD_OK && s.graph.n_lines && s.graph.n_lines <= MOST_LINES)
     status = read_lines (&s, layer, relations, problems, doubts, &n);
   found->width = n ? s.graph.width : 0;

@@ -61,6 +61,9 @@ double celd_joined_widths_apart (const CeldJoinedLines *lines, size_t end);
 /* How many lines end at the node of an end. */
 size_t    celd_joined_lines_at (const CeldJoinedLines *lines, size_t end);
 
+/* May two lines just cross at the node of an end, so that none ends there? */
+bool      celd_joined_cross_at (const CeldJoinedLines *lines, size_t end);
+
 /* Do all other lines at the node of an end, at least two, go on from it about straight?  Then they lie on each other
  * along its line, and part there. */
 bool      celd_joined_part_from (const CeldJoinedLines *lines, size_t end);

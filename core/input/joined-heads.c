@@ -19,7 +19,6 @@
 #define CLEAR_MARGIN   1    /* cost by which an arrow must be better than others in its place */
 #define MOST_REST      1.5  /* cost of a node where all is clear */
 #define MOST_OFF       1.5  /* widths by which a line may pass the place where it ends */
-#define CROSS_TURN     0.5  /* radians by which lines turn that only cross there */
 #define TIP_RADIUS     0.9  /* widths from the tip of a head to where there is no paint, at most */
 #define BARE_MARGIN    0.75 /* cost by which a free end must be better without a head */
 #define SHORTEST_ARROW 6    /* widths that the line of an arrow is long */
@@ -177,18 +176,6 @@ leads_to (const CeldHeadChoice *s, size_t end, CeldPoint place)
          fabs ((place.x - from.x) * way.y - (place.y - from.y) * way.x) <= MOST_OFF * s->lines->graph.width;
 }
 
-/* May two lines just cross at a node, so that none ends there?  Nothing else shows that they do. */
-static bool
-is_crossing (const CeldHeadChoice *s, const CeldNodeMarks *node, unsigned set)
-{
-  int straight = 0;
-
-  for (int a = 0; a < node->n; a++)
-    for (int b = a + 1; b < node->n; b++)
-      straight += celd_joined_turn (s->lines, node->end[a], node->end[b]) < CROSS_TURN;
-  return node->n == 4 && !set && straight >= 2;
-}
-
 /* Would a head at an end without one explain the paint of its node better? */
 static bool
 may_have_head (const CeldHeadChoice *s, size_t end, const CeldNodeMarks *node, unsigned set)
@@ -208,12 +195,13 @@ is_inside_head (const CeldJoinedLines *s, CeldPoint tip, unsigned set)
          sqrt (s->mask.squared[celd_joined_pixel (s, tip)]) - 0.5 > TIP_RADIUS * s->graph.width;
 }
 
-/* Does nothing show where lines end that meet at a node?  Two go on almost straight there, or cross, or part. */
+/* Does nothing show where lines end that meet at a node?  Two go on almost straight there, or may just cross, or
+ * part. */
 static bool
 is_on_the_way (const CeldHeadChoice *s, const CeldNodeMarks *node, unsigned set)
 {
   return (node->n == 2 && !set && celd_joined_turn (s->lines, node->end[0], node->end[1]) < PASS_TURN) ||
-         is_crossing (s, node, set) || is_fork (s, node);
+         (!set && celd_joined_cross_at (s->lines, node->end[0])) || is_fork (s, node);
 }
 
 /* Finds the place of an end; false if it is not apart from others, or if paint is there that nothing explains, or that

@@ -17,6 +17,7 @@
 #define LEAD_OFF     0.1  /* ... or near paint, ... */
 #define LEAD_LEAST   0.75 /* ... of which at least so much is painted */
 #define PARTING      0.7  /* radians by which lines turn that part, at most */
+#define CROSS_TURN   0.5  /* radians by which lines turn that only cross at a node */
 #define LEAST_APART  1.3  /* from where lines meet to where each is alone */
 
 size_t
@@ -101,6 +102,17 @@ celd_joined_meeting_point (const CeldJoinedLines *lines, int node)
     if (celd_joined_node (lines, i) == node)
       celd_line_sums_add (&sums, celd_joined_led_from (lines, i), celd_joined_way (lines, i), 1);
   return celd_line_sums_point (&sums, lines->graph.node[node].at);
+}
+
+bool
+celd_joined_cross_at (const CeldJoinedLines *lines, size_t end)
+{
+  int node = celd_joined_node (lines, end), straight = 0;
+
+  for (size_t a = 0; a < 2 * lines->graph.n_lines; a++)
+    for (size_t b = a + 1; b < 2 * lines->graph.n_lines && celd_joined_node (lines, a) == node; b++)
+      straight += celd_joined_node (lines, b) == node && celd_joined_turn (lines, a, b) < CROSS_TURN;
+  return celd_joined_lines_at (lines, end) == 4 && straight >= 2;
 }
 
 /* Is paint at a point, or near it?  Thin tips are hardly wider than a pixel. */
