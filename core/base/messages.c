@@ -114,9 +114,9 @@ arrow_text (CeldArrowReason reason)
     case CELD_REASON_SHORT:
       return N_ ("The arrow at (%d, %d) is too short for its width, so it was left out. Draw it longer, or with a thinner "
                  "brush.");
-    case CELD_REASON_HEAD_OPPOSED:
-      return N_ ("The arrow at (%d, %d) has its head at the end that is nearer by its opacity or width, so it was left "
-                 "out. Draw it without a head, or check the arrow style.");
+    case CELD_REASON_HEAD:
+      return N_ ("The arrow at (%d, %d) has a head that does not agree with its opacity or width, so it was left out. "
+                 "Draw it without a head, or choose the arrow style for heads.");
     case CELD_REASON_UNEVEN:
       return N_ ("The arrow at (%d, %d) may be two strokes that touch: it turns sharply, changes its colour, or does not "
                  "get fainter or thinner all the way. So it was left out. Draw it again in one go, or draw two arrows "

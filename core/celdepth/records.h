@@ -84,7 +84,7 @@ typedef enum
   CELD_REASON_NONE,                /* it is clear, or the problem is no arrow */
   CELD_REASON_SHORT,               /* too short for its width */
   CELD_REASON_ALIKE,               /* neither of its ends, or each, is what the style says of the nearer one */
-  CELD_REASON_HEAD_OPPOSED,        /* it fades or tapers, but its head is at the nearer end */
+  CELD_REASON_HEAD,                /* it should fade or taper, and has a head that does not agree with that */
   CELD_REASON_UNEVEN,              /* it turns sharply, changes colour, or fades or tapers in parts only */
   CELD_REASON_MEETING,             /* it meets strokes, and which way it goes on there cannot be told */
   CELD_REASON_PIECE,               /* small, and so near to another stroke that it may be a piece of it */

@@ -28,10 +28,9 @@ head_disagrees (CeldArrowStroke *stroke, const CeldArrowEnds *ends)
                                                    hypot (found.tip.x - ends->tip.x, found.tip.y - ends->tip.y);
 }
 
-/* CELD_REASON_NONE, or why the stroke is no clear arrow.  Resets the distances of its pixels, because crossing strokes
- * share some. */
+/* CELD_REASON_NONE, or why the stroke is no clear arrow. */
 static CeldArrowReason
-read_stroke (CeldArrowStroke *stroke, const CeldArrowLayer *layer, CeldArrowStyle style, CeldArrowEnds *ends)
+read_marks (CeldArrowStroke *stroke, const CeldArrowLayer *layer, CeldArrowStyle style, CeldArrowEnds *ends)
 {
   CeldArrowEnds   found;
   CeldArrowReason reason;
@@ -39,15 +38,20 @@ read_stroke (CeldArrowStroke *stroke, const CeldArrowLayer *layer, CeldArrowStyl
   if (style == CELD_ARROW_FADE || style == CELD_ARROW_TAPER)
     {
       reason = celd_arrow_profile (stroke, layer, style, ends);
-      if (!reason && head_disagrees (stroke, ends))
-        reason = CELD_REASON_HEAD_OPPOSED;
+      return !reason && head_disagrees (stroke, ends) ? CELD_REASON_HEAD : reason;
     }
-  else
-    {
-      reason = celd_arrowhead (stroke, style == CELD_ARROW_DOT, &found);
-      if (!reason)
-        *ends = style == CELD_ARROW_DOT ? (CeldArrowEnds) { found.tip, found.tail } : found;
-    }
+  reason = celd_arrowhead (stroke, style == CELD_ARROW_DOT, &found);
+  if (!reason)
+    *ends = style == CELD_ARROW_DOT ? (CeldArrowEnds) { found.tip, found.tail } : found;
+  return reason;
+}
+
+/* The same; resets the distances of the stroke's pixels, because crossing strokes share some. */
+static CeldArrowReason
+read_stroke (CeldArrowStroke *stroke, const CeldArrowLayer *layer, CeldArrowStyle style, CeldArrowEnds *ends)
+{
+  CeldArrowReason reason = read_marks (stroke, layer, style, ends);
+
   for (size_t i = 0; i < stroke->n; i++)
     stroke->distance[stroke->pixel[i]] = INFINITY;
   return reason;
@@ -160,6 +164,15 @@ celd_arrow_strokes_read (CeldArrowStroke *stroke, const CeldArrowLayer *layer, C
   return status;
 }
 
+/* Has a stroke a head that the style does not ask for? */
+static bool
+has_other_head (CeldArrowStroke *stroke, const CeldArrowLayer *layer, CeldArrowStyle style)
+{
+  CeldArrowEnds ends;
+
+  return (style == CELD_ARROW_FADE || style == CELD_ARROW_TAPER) && !read_stroke (stroke, layer, CELD_ARROW_HEAD, &ends);
+}
+
 /* Why a stroke is left out that was not read: its own reason; or `reason` if it is clear alone, or just has none of the
  * marks of an arrow. */
 static CeldArrowReason
@@ -168,6 +181,8 @@ why_unclear (CeldArrowStroke *stroke, const CeldArrowLayer *layer, CeldArrowStyl
   CeldArrowEnds   ends;
   CeldArrowReason own = read_stroke (stroke, layer, style, &ends);
 
+  if (own && has_other_head (stroke, layer, style))
+    return CELD_REASON_HEAD;
   return !own || (own == CELD_REASON_ALIKE && reason) ? reason : own;
 }
 

@@ -129,11 +129,18 @@ width_before (const CeldArrowStroke *stroke, double w, double distance)
   return fmax (least * w, celd_stroke_mean_width (stroke, fmax (0, distance - 4 * w), distance));
 }
 
+/* The length for which a stroke must be wider than its shaft. */
+static double
+least_head (double w)
+{
+  return fmax (w, 4);
+}
+
 /* The distance at which the stroke gets wider than just before, and stays wider; its length if it does not. */
 static double
 shaft_end (const CeldArrowStroke *stroke, double w)
 {
-  double length = celd_stroke_length (stroke), ahead = fmax (w, 4), d = w;
+  double length = celd_stroke_length (stroke), ahead = least_head (w), d = w;
 
   for (; d + ahead < length; d += 0.5)
     {
@@ -345,15 +352,16 @@ read_from_tail (CeldArrowStroke *stroke, uint32_t tail, bool dot, CeldArrowEnds 
   return hypot (last.x - ends->tail.x, last.y - ends->tail.y) < w + 2 && !two_meet_at_end (stroke, w, barb_length (&e));
 }
 
-/* Is a stroke so short, seen from an end, that there is no room for a shaft? */
+/* Is a stroke so short, seen from an end, that there is no room for a shaft and the least head? */
 static bool
 is_short (CeldArrowStroke *stroke, uint32_t end)
 {
-  double length;
+  double length, w;
 
   celd_stroke_follow (stroke, &end, 1);
   length = celd_stroke_length (stroke);
-  return length < SHORTEST_SHAFT || length < LEAST_SHAFT * celd_stroke_mean_width (stroke, 1, 0.5 * length);
+  w      = celd_stroke_mean_width (stroke, 1, 0.5 * length);
+  return length < SHORTEST_SHAFT || length <= LEAST_SHAFT * w + least_head (w);
 }
 
 CeldArrowReason

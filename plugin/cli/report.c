@@ -244,12 +244,19 @@ add_problem (JsonBuilder *json, const CliReport *report, const CeldProblem *prob
     "stroke-overruled", "region-unreached", "colour-lost", "arrow-unclear", "outside", "unknown-colour", "same-region",
     "contradiction", "not-converged", "region-split", "hidden-unsure",
   };
+  static const char *reasons[] = {
+    [CELD_REASON_SHORT] = "short", [CELD_REASON_ALIKE] = "alike", [CELD_REASON_HEAD] = "head",
+    [CELD_REASON_UNEVEN] = "uneven", [CELD_REASON_MEETING] = "meeting", [CELD_REASON_PIECE] = "piece",
+    [CELD_REASON_HIDDEN] = "hidden", [CELD_REASON_FRAME] = "frame",
+  };
   char               text[400];
 
   celd_problem_text (problem, report->palette, report->relations, NULL, text, sizeof text);
   json_builder_begin_object (json);
   add_text (json, "kind", kinds[problem->kind]);
   add_text (json, "text", text);
+  if (problem->reason)
+    add_text (json, "reason", reasons[problem->reason]);
   if (problem->x >= 0 && problem->y >= 0)
     add_place (json, "place", problem->x, problem->y);
   if (problem->label)

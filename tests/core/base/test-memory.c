@@ -94,6 +94,23 @@ records_can_be_cleared_twice (void)
   CHECK (!relations.item && !relations.n && !problems.item);
 }
 
+/* A problem takes its own paint with it, and no other's. */
+static void
+problems_are_copied_with_their_paint (void)
+{
+  CeldProblem  item[2] = { { .x = 1, .first = 0, .runs = 2 }, { .x = 2, .first = 2, .runs = 1 } };
+  CeldPaintRun run[3] = { { 1, 1, 4 }, { 2, 2, 5 }, { 3, 3, 6 } };
+  CeldProblems from = { .item = item, .n = 2, .run = run, .n_runs = 3 }, to = { 0 };
+
+  CHECK (celd_problem_copy (&from, 1, &to) == CELD_OK && celd_problem_copy (&from, 0, &to) == CELD_OK);
+  CHECK (celd_problem_copy (&from, 0, NULL) == CELD_OK);
+  CHECK (to.n == 2 && to.item[0].x == 2 && to.item[1].x == 1 && to.n_runs == 3);
+  CHECK (to.item[0].first == 0 && to.item[0].runs == 1 && to.run[0].n == 6);
+  CHECK (to.item[1].first == 1 && to.item[1].runs == 2 && to.run[1].n == 4 && to.run[2].n == 5);
+  celd_problems_clear (&to);
+  CHECK (!to.run && !to.n_runs);
+}
+
 int
 main (void)
 {
@@ -103,5 +120,6 @@ main (void)
   RUN (lists_keep_what_they_hold);
   RUN (new_pictures);
   RUN (records_can_be_cleared_twice);
+  RUN (problems_are_copied_with_their_paint);
   return DONE;
 }

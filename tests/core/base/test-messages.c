@@ -44,6 +44,23 @@ problems_say_what_and_where (void)
   CHECK (strstr (text, "The arrow from (5, 0)"));
 }
 
+/* Each has a sentence of its own, with the place, that says what to do: two sentences. */
+static void
+unclear_arrows_have_reasons (void)
+{
+  CeldProblem unclear = { .kind = CELD_PROBLEM_ARROW_UNCLEAR, .x = 12, .y = 34, .relation = CELD_NO_INDEX };
+  char        text[CELD_REASON_FRAME + 1][400];
+
+  for (int k = CELD_REASON_SHORT; k <= CELD_REASON_FRAME; k++)
+    {
+      unclear.reason = (CeldArrowReason) k;
+      celd_problem_text (&unclear, NULL, NULL, NULL, text[k], sizeof text[k]);
+      CHECK (strstr (text[k], "(12, 34)") && strstr (text[k], "left out. ") && text[k][strlen (text[k]) - 1] == '.');
+      for (int other = CELD_REASON_SHORT; other < k; other++)
+        CHECK (strcmp (text[k], text[other]));
+    }
+}
+
 /* What a gettext of two texts would give; others stay. */
 static const char *
 in_german (const char *text)
@@ -117,6 +134,7 @@ main (void)
 {
   RUN (every_status_has_a_text);
   RUN (problems_say_what_and_where);
+  RUN (unclear_arrows_have_reasons);
   RUN (sentences_are_translated_before_they_are_filled_in);
   RUN (cycles_name_the_other_relations);
   RUN (labels_are_named_by_colours);

@@ -90,6 +90,27 @@ nothing_without_a_place (void)
     CHECK (pixels[i] == 255);
 }
 
+/* The paint of an unclear arrow in place of a ring, whatever was there, as far as it lies in the picture. */
+static void
+paint_in_place_of_a_ring (void)
+{
+  CeldProblem  item[2] = { { .kind = CELD_PROBLEM_ARROW_UNCLEAR, .x = 41, .y = 30, .first = 0, .runs = 3 },
+                           { .kind = CELD_PROBLEM_ARROW_UNCLEAR, .x = 70, .y = 9, .first = 3, .runs = 1 } };
+  CeldPaintRun run[4] = { { 40, 30, 3 }, { 41, 31, 1 }, { W - 2, 32, 5 }, { 70, 9, 1 } };
+
+  fill (128, 128);
+  celd_problems_paint (&(CeldProblems) { .item = item, .n = 2, .run = run, .n_runs = 4 }, &paint);
+  for (int y = 0; y < H; y++)
+    for (int x = 0; x < W; x++)
+      {
+        bool painted = (y == 30 && x >= 40 && x < 43) || (y == 31 && x == 41) || (y == 32 && x >= W - 2) ||
+                       (y == 9 && x == 70);
+
+        CHECK (is_red (x, y) == painted);
+        CHECK (painted || !memcmp (CELD_RGBA (&paint, x, y), (uint8_t[]) { 128, 128, 128, 128 }, 4));
+      }
+}
+
 int
 main (void)
 {
@@ -97,5 +118,6 @@ main (void)
   RUN (on_transparent_ground);
   RUN (cut_at_the_frame);
   RUN (nothing_without_a_place);
+  RUN (paint_in_place_of_a_ring);
   return DONE;
 }

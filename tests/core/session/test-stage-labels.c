@@ -32,7 +32,7 @@ same_problems (const CeldProblems *a, const CeldProblems *b)
       const CeldProblem *p = &a->item[i], *q = &b->item[i];
 
       if (p->kind != q->kind || p->x != q->x || p->y != q->y || p->label != q->label || p->other != q->other ||
-          p->relation != q->relation)
+          p->relation != q->relation || p->reason != q->reason || p->runs != q->runs)
         return false;
     }
   return a->n == b->n;
