@@ -181,6 +181,25 @@ coloured_step (const CeldHost *host, Results *r)
   return celd_arrows_read (&arrows, CELD_ARROW_HEAD, host, &r->relations, &r->problems);
 }
 
+/* Three of one colour that begin in one place, of which the one to the upper left does not fade. */
+static CeldStatus
+joined_step (const CeldHost *host, Results *r)
+{
+  static Pixels page;
+  CeldPaint     arrows = paint_of (&page);
+
+  for (int y = 0; y < H; y++)
+    for (int x = 0; x < W; x++)
+      {
+        bool across = y > 22 && y < 26 && x >= 32 && x < 60, down = x > 30 && x < 34 && y > 22 && y < 46;
+        bool bare = x > 10 && x < 32 && y < 24 && abs (x - 32 - (y - 24)) < 2;
+        int  alpha = across ? 255 - 8 * (x - 32) : down ? 255 - 10 * (y - 23) : bare ? 255 : 0;
+
+        CELD_RGBA (&arrows, x, y)[3] = (uint8_t) alpha;
+      }
+  return celd_arrows_read (&arrows, CELD_ARROW_FADE, host, &r->relations, &r->problems);
+}
+
 static CeldStatus
 segment_step (const CeldHost *host, Results *r)
 {
@@ -404,6 +423,7 @@ const Step region_steps[] = {
   { "arrows", arrows_step, NULL, true },
   { "crossing arrows", crossing_step, NULL, true },
   { "arrows of two colours", coloured_step, NULL, true },
+  { "arrows that share an end", joined_step, NULL, true },
   { "basins", basins_step, NULL, true },
   { "segment", segment_step, &seed_palette, true },
   { "flats", flats_step, &seed_palette, true },

@@ -112,18 +112,18 @@ arrow_text (CeldArrowReason reason)
   switch (reason)
     {
     case CELD_REASON_SHORT:
-      return N_ ("The arrow at (%d, %d) is too short for its width, so it was left out. Draw it longer, or with a thinner "
-                 "brush.");
+      return N_ ("The arrow at (%d, %d) is too short for its width, so it was left out. Draw it longer, or with a "
+                 "thinner brush.");
     case CELD_REASON_HEAD:
       return N_ ("The arrow at (%d, %d) has a head that does not agree with its opacity or width, so it was left out. "
                  "Draw it without a head, or choose the arrow style for heads.");
     case CELD_REASON_UNEVEN:
-      return N_ ("The arrow at (%d, %d) may be two strokes that touch: it turns sharply, changes its colour, or does not "
-                 "get fainter or thinner all the way. So it was left out. Draw it again in one go, or draw two arrows "
-                 "apart from each other.");
+      return N_ ("The arrow at (%d, %d) turns sharply, changes its colour, or does not get fainter or thinner all the "
+                 "way: it may be two that touch, so it was left out. Draw it again in one go, or draw two apart from "
+                 "each other.");
     case CELD_REASON_MEETING:
-      return N_ ("The arrow at (%d, %d) meets other strokes, and which way it goes on there is not clear, so it was left "
-                 "out. Draw it apart from them, or in another colour.");
+      return N_ ("The arrow at (%d, %d) meets other strokes, and which way it goes on there is not clear, so it was "
+                 "left out. Draw it apart from them, or in another colour.");
     case CELD_REASON_PIECE:
       return N_ ("The small stroke at (%d, %d) may be a piece of the one next to it, so it was left out. Draw arrows "
                  "without gaps, and farther from each other.");

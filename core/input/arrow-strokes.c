@@ -170,7 +170,8 @@ has_other_head (CeldArrowStroke *stroke, const CeldArrowLayer *layer, CeldArrowS
 {
   CeldArrowEnds ends;
 
-  return (style == CELD_ARROW_FADE || style == CELD_ARROW_TAPER) && !read_stroke (stroke, layer, CELD_ARROW_HEAD, &ends);
+  return (style == CELD_ARROW_FADE || style == CELD_ARROW_TAPER) &&
+         !read_stroke (stroke, layer, CELD_ARROW_HEAD, &ends);
 }
 
 /* Why a stroke is left out that was not read: its own reason; or `reason` if it is clear alone, or just has none of the

@@ -180,7 +180,8 @@ read_components (Components *s, const CeldArrowLayer *layer, CeldArrowStyle styl
       s->stroke.n     = s->component[k].area;
       done += s->stroke.n;
       if ((style == CELD_ARROW_FADE || style == CELD_ARROW_TAPER) && is_remnant (s))
-        status = celd_arrow_problem_add (problems, CELD_REASON_PIECE, celd_stroke_middle (&s->stroke), &s->stroke, NULL);
+        status = celd_arrow_problem_add (problems, CELD_REASON_PIECE, celd_stroke_middle (&s->stroke), &s->stroke,
+                                         NULL);
       else
         status = read_component (&s->stroke, layer, style, relations, problems);
       if (status == CELD_OK)

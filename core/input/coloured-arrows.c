@@ -132,7 +132,8 @@ read_part (ColouredArrows *s, CeldArrowStroke *stroke, size_t k, CeldRelations *
   if (status == CELD_OK && clear)
     status = add_doubts (s, stroke, &strokes, &cover, relations, before);
   else if (status == CELD_OK && readable)
-    status = celd_joined_arrows_read (stroke, &cover, s->paint.layer, s->style, relations, problems, &s->doubts, &found);
+    status = celd_joined_arrows_read (stroke, &cover, s->paint.layer, s->style, relations, problems, &s->doubts,
+                                      &found);
   if (status == CELD_OK && (clear || found.width > 0))
     status = add_ends (s, stroke, k, relations, before, found.width);
   else if (status == CELD_OK)

@@ -332,7 +332,8 @@ CeldPoint celd_stroke_centroid (const CeldArrowStroke *stroke, double from, doub
 /* The tail of an arrow is at the nearer region, its tip at the farther one. */
 typedef struct { CeldPoint tail, tip; } CeldArrowEnds;
 
-/* CELD_REASON_NONE, or why the stroke has no clear arrowhead; with `dot`, no clear dot, whose centre is then the tip. */
+/* CELD_REASON_NONE, or why the stroke has no clear arrowhead; with `dot`, no clear dot, whose centre is then the
+ * tip. */
 CeldArrowReason celd_arrowhead (CeldArrowStroke *stroke, bool dot, CeldArrowEnds *ends);
 
 /* Sums over some paint, weighted by opacity, for its mean colour; in a layer without alpha, that less the colour of the
@@ -407,8 +408,8 @@ bool celd_arrow_is_blue (const CeldArrowStroke *stroke, const CeldArrowLayer *la
 CeldStatus celd_arrow_strokes_read (CeldArrowStroke *stroke, const CeldArrowLayer *layer, CeldArrowStyle style,
                                     CeldRelations *relations, CeldCrossingStrokes *strokes, bool *clear);
 
-/* Appends a problem for each stroke of connected paint that was not clear, with its own reason.  reason: that of strokes
- * that are clear alone or look alike at both ends; CELD_REASON_NONE = there is none, but that strokes cross. */
+/* Appends a problem for each stroke of connected paint that was not clear, with its own reason.  reason: that of those
+ * that are clear alone, or look alike at both ends; CELD_REASON_NONE = there is none, but that strokes cross. */
 CeldStatus celd_arrow_strokes_report (const CeldArrowStroke *paint, const CeldCrossingStrokes *strokes,
                                       const CeldStrokeCover *cover, const CeldArrowLayer *layer, CeldArrowStyle style,
                                       CeldArrowReason reason, CeldProblems *problems);

@@ -163,8 +163,8 @@ void celd_line_values_fit (const CeldLineValues *values, size_t from, size_t to,
 typedef struct { size_t at; bool vague; } CeldLineTurn;
 
 /* How the opacity or width of a line changes.  seen: there is enough of the line; known: then values only fall or only
- * rise; value: at its ends, led on to their nodes; tail: the end that is nearer, -1 = they hardly change; colour: of a third
- * of the line at each end; turn: where arrows meet in a line that is not known, in their order. */
+ * rise; value: at its ends, led on to their nodes; tail: the end that is nearer, -1 = they hardly change; colour: of a
+ * third of the line at each end; turn: where arrows meet in a line that is not known, in their order. */
 typedef struct
 {
   bool            seen, known;

@@ -323,8 +323,8 @@ some_of_several (void)
       for (int k = 0; k < 4; k++)
         {
           angle += random_between (&state, 1, 1.5);
-          a[k] = through ((Point) { 100, 100 }, angle, random_between (&state, 55, 85), check_random (&state, 2), 4, style,
-                          i % 8 < 4);
+          a[k] = through ((Point) { 100, 100 }, angle, random_between (&state, 55, 85), check_random (&state, 2), 4,
+                          style, i % 8 < 4);
           draw_arrow (&paint, &a[k], GREEN);
         }
       answer = read_paint (&paint, style);
