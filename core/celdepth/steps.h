@@ -92,8 +92,8 @@ CELD_API CeldStatus celd_fragment_relations_parse (const char *text, const char 
  * appended; errors as above. */
 CELD_API CeldStatus celd_arrow_path_parse (const char *path, CeldRelations *relations, CeldTextError *error);
 
-/* Reads painted arrows (section 3.1): appends a relation for each connected stroke, and a problem for each whose
- * direction is unclear. */
+/* Reads painted arrows (section 3.1): appends a relation for each connected stroke, and a problem, with its reason and
+ * its paint, for each that is unclear. */
 CELD_API CeldStatus celd_arrows_read (const CeldPaint *arrows, CeldArrowStyle style, const CeldHost *host,
                                       CeldRelations *relations, CeldProblems *problems);
 

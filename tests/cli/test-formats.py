@@ -224,6 +224,22 @@ class Formats(Test):
                 self.assertGreater(at(levels, IN_A), at(levels, IN_B))
                 self.assertEqual([(r['source'], r.get('crack', False)) for r in relations], [('arrow', crack)])
 
+    def test_unclear_arrows_have_reasons(self):
+        """In the report, and in what is said."""
+        for style, head, reason in (('head', False, 'alike'), ('taper', True, 'head')):
+            with self.subTest(reason):
+                layer = Image.new('RGBA', (WIDTH, HEIGHT))
+                draw = ImageDraw.Draw(layer)
+                draw.line([(18, 20), (68, 45)], fill=(200, 60, 0, 255), width=3)
+                if head:
+                    draw.polygon([(72, 47), (67, 39), (62, 48)], fill=(200, 60, 0, 255))
+                layer.save(self.path('arrows.png'))
+                said = self.popup('--arrows', 'arrows.png', '--arrow-style', style, '--levels', 'levels.npy',
+                                  '--report', 'report.json')
+                problem, = self.report()['problems']
+                self.assertEqual((problem['kind'], problem['reason']), ('arrow-unclear', reason))
+                self.assertIn(problem['text'], said)
+
     def test_steps_equal_popup(self):
         """segment, order, expand, smooth and shade, one after the other, with files."""
         self.popup('--relations', RELATIONS, '--labels', 'a.png', '--unexpanded-levels', 'a-order.npy',
