@@ -421,10 +421,22 @@ int  cli_scene_finish  (const CliOptions *options, const char *command, const Cl
  * memory. */
 bool cli_views_write (const CliOptions *options, CliScene *s);
 
+/* ------------------------------------------------------------------ shade.c, enhance.c */
+
+/* Write what the options name: --shaded, --tone and --rim; --enhanced, --shadow and --view.  The art, in linear light,
+ * changes; its data may be missing if it is not wanted. */
+bool cli_light_write   (const CliOptions *options, const CeldColours *tone, const CeldPlane *gloss, CeldColours *art);
+bool cli_shadows_write (const CliOptions *options, const CeldPlane *levels, const CeldPlane *change, CeldColours *art);
+
+/* ------------------------------------------------------------------ relief.c */
+
+/* Writes --height and --mesh of a session with the settings of a model; a mesh needs the art, in encoded colours. */
+bool cli_relief_write (CeldSession *session, const CliOptions *options, const CeldColours *art, CliRun *run);
+
 /* ------------------------------------------------------------------ uses.c */
 
-/* Writes the lit art, the art with shadows, the layers and the views that the options name.  `art`, in linear light,
- * stays as it is; the session's settings change. */
+/* Writes the light, the shadows, the layers, the model and the views that the options name.  `art`, in linear light,
+ * stays as it is, and has data only if a result needs it; the session's settings change. */
 bool cli_uses_write (CeldSession *session, const CliOptions *options, const CeldColours *art, CliRun *run);
 
 /* ------------------------------------------------------------------ deform-handles.c, deform-keys.c */

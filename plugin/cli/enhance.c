@@ -17,8 +17,8 @@ read_art (const CliOptions *options, const CeldPlane *levels, CeldColours *art)
                     levels->height);
 }
 
-static bool
-write_results (const CliOptions *options, const CeldPlane *levels, const CeldPlane *change, CeldColours *art)
+bool
+cli_shadows_write (const CliOptions *options, const CeldPlane *levels, const CeldPlane *change, CeldColours *art)
 {
   CeldColours layer = { 0 };
   CeldPlane   view = { 0 };
@@ -56,7 +56,7 @@ run_enhance (const CliOptions *options)
         cli_warn_if_flat (options->input, &levels);
       cli_run_stage (&run, "shadows");
       status = celd_enhance (&levels, &options->settings, &run.host, &change);
-      good = cli_run_finish (&run, status) && write_results (options, &levels, &change, &art);
+      good = cli_run_finish (&run, status) && cli_shadows_write (options, &levels, &change, &art);
     }
   g_free (levels.data);
   g_free (change.data);

@@ -82,15 +82,15 @@ static const FileOption files[] = {
   { "grid", CLI_SHADE, 0, TEXT, MEMBER (grid), "COLUMNSxROWS",
     "the input is a sheet of sprites, which are shaded one by one" },
   { "enhanced", CLI_POPUP | CLI_ENHANCE, 0, OUTPUT, MEMBER (enhanced), "OUT", "write the art with shadows" },
-  { "shadow", CLI_ENHANCE, 0, OUTPUT, MEMBER (shadow), "OUT", "write the shadows alone, as a black layer" },
-  { "view", CLI_ENHANCE, 0, OUTPUT, MEMBER (view), "OUT", "write a grey picture of depth with shadows" },
+  { "shadow", CLI_POPUP | CLI_ENHANCE, 0, OUTPUT, MEMBER (shadow), "OUT", "write the shadows alone, as a black layer" },
+  { "view", CLI_POPUP | CLI_ENHANCE, 0, OUTPUT, MEMBER (view), "OUT", "write a grey picture of depth with shadows" },
   { "normals", CLI_POPUP | CLI_SHADE, 0, OUTPUT, MEMBER (normals), "OUT", "write normals" },
   { "shading", CLI_POPUP | CLI_SHADE, 0, OUTPUT, MEMBER (shading), "OUT", "write shading" },
   { "shaded", CLI_POPUP | CLI_SHADE, 0, OUTPUT, MEMBER (shaded), "OUT", "write the lit drawing, or other lit art" },
-  { "tone", CLI_SHADE, 0, OUTPUT, MEMBER (tone), "OUT", "write a layer to multiply the art by" },
-  { "rim", CLI_SHADE, 0, OUTPUT, MEMBER (rim), "OUT",
+  { "tone", CLI_POPUP | CLI_SHADE, 0, OUTPUT, MEMBER (tone), "OUT", "write a layer to multiply the art by" },
+  { "rim", CLI_POPUP | CLI_SHADE, 0, OUTPUT, MEMBER (rim), "OUT",
     "write a white layer of highlights and rims, to put over the product" },
-  { "occlusion", CLI_SHADE, 0, OUTPUT, MEMBER (occlusion), "OUT",
+  { "occlusion", CLI_POPUP | CLI_SHADE, 0, OUTPUT, MEMBER (occlusion), "OUT",
     "write ambient occlusion: the fraction of light that nearer parts let through" },
   { "maps", CLI_SHADE, 0, MAPS, MEMBER (maps), "NAME.png",
     "write maps for game engines: NAME_n.png (normals), NAME_o.png (occlusion), NAME_s.png (specular)" },
@@ -118,9 +118,10 @@ static const FileOption files[] = {
   { "output", CLI_COMPOSE, 0, COMPOSED, MEMBER (composed), "OUT",
     "write the picture: .png, .tif, .npy; or its layers: .ora (OpenRaster), .psd, .exr (one part per layer), or a "
     "folder of PNG files" },
-  { "height", CLI_RELIEF, 0, OUTPUT, MEMBER (height), "OUT",
+  { "height", CLI_POPUP | CLI_RELIEF, 0, OUTPUT, MEMBER (height), "OUT",
     "write heights in pixels; in .png from 0, the lowest, to 1, the highest" },
-  { "mesh", CLI_RELIEF, 0, MESH, MEMBER (mesh), "OUT", "write a mesh: .glb, .obj, .ply, or .stl for printing" },
+  { "mesh", CLI_POPUP | CLI_RELIEF, 0, MESH, MEMBER (mesh), "OUT",
+    "write a mesh: .glb, .obj, .ply, or .stl for printing" },
   { "displacement", CLI_REGISTER, 0, OUTPUT, MEMBER (displacement), "OUT",
     "write how far each pixel of the first drawing moves, in pixels to the right and down: .npy, .exr or .tif" },
   { "warped", CLI_REGISTER, 0, OUTPUT, MEMBER (warped), "OUT",
@@ -146,7 +147,7 @@ static const FileOption files[] = {
   { "output", CLI_INBETWEEN, CLI_INBETWEEN, MOVING, MEMBER (between), "OUT",
     "write the drawings between: .png, .exr, .tif or .npy, with a # for each digit of the number; or with the keys: .gif, "
     "or a folder of PNG files" },
-  { "format", CLI_POPUP, 0, HOW, MEMBER (format), "ENDING", FORMAT "png, but ora for layers)" },
+  { "format", CLI_POPUP, 0, HOW, MEMBER (format), "ENDING", FORMAT "png, but ora for layers and glb for meshes)" },
   { "format", CLI_LAYERS, 0, HOW, MEMBER (format), "ENDING", FORMAT "ora)" },
   { "format", CLI_STEREO, 0, HOW, MEMBER (format), "ENDING", FORMAT "png, but gif for a sequence)" },
   { "format", CLI_WIGGLE, 0, HOW, MEMBER (format), "ENDING", FORMAT "gif)" },
@@ -215,6 +216,7 @@ cli_files_ending (const CliCommand *command, const char *option)
   for (size_t i = 0; i < G_N_ELEMENTS (files); i++)
     if (files[i].steps & (int) command->step && files[i].kind >= OUTPUT && !strcmp (files[i].name, option))
       return files[i].kind == STACK                  ? "ora"
+             : files[i].kind == MESH                 ? "glb"
              : files[i].kind != REPORT               ? "png"
              : files[i].offset == MEMBER (report)    ? "json"
                                                      : "txt";

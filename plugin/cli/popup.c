@@ -27,7 +27,7 @@ const CliCommand cli_popup_command = {
   .name     = "popup",
   .step     = CLI_POPUP,
   .input    = "DRAWING|LAYERED",
-  .summary  = "Makes regions, order, depth, normals, light, layers and views of a drawing, in one run.",
+  .summary  = "Makes regions, order, depth, light, layers, views and a model of a drawing, in one run.",
   .examples = "  celdepth popup bee.png --scribbles strokes.png --arrows arrows.png --depth depth.exr\n"
               "  celdepth popup bee.png --scribbles strokes.png --relations '#ff0000 > #0000ff' \\\n"
               "      --labels flat.png --levels levels.png --shading shading.png --report report.json\n"
@@ -40,7 +40,8 @@ const CliCommand cli_popup_command = {
               "hold-gaps tolerance bulge bevel creases frame-outline light-model toon-steps light-background light "
               "light-azimuth light-elevation ambient light-x light-y light-height specular shininess rim-light "
               "rim-power enhance shadow-size shadow-strength shadow-offset shadow-range complete margin stereo "
-              "disparity convergence floating-window screen-width",
+              "disparity convergence floating-window screen-width relief-bulge relief-from relief-depth mesh-kind "
+              "mesh-size mesh-plate mesh-error most-vertices",
   .output   = "depth",
   .check    = check,
   .run      = run_popup,

@@ -38,11 +38,10 @@ finish_mesh (const CliOptions *options, CliRun *run, CeldStatus status, double e
 
 /* Writes one surface: closed for STL, for printing, and else open. */
 static bool
-write_surface (const CliOptions *options, const CeldRelief *relief, CliLayers *input, CliRun *run)
+write_surface (const CliOptions *options, const CeldRelief *relief, const CeldColours *art, CliRun *run)
 {
   CeldSettings   s = options->settings;
   CeldReliefMesh mesh = { 0 };
-  CeldColours    art = { 0 };
   CeldStatus     status;
   bool           good;
 
@@ -50,21 +49,18 @@ write_surface (const CliOptions *options, const CeldRelief *relief, CliLayers *i
   cli_run_stage (run, "mesh");
   status = celd_relief_mesh (relief, &s, &run->host, &mesh);
   good   = finish_mesh (options, run, status, mesh.error) &&
-           cli_art_read (options->drawing ? options->drawing : options->input, options->colours, false, input,
-                         &art) &&
-           cli_write_meshes (options->mesh, &(CeldIoMesh) { "relief", &mesh }, 1, &art);
+           cli_write_meshes (options->mesh, &(CeldIoMesh) { "relief", &mesh }, 1, art);
   celd_relief_mesh_clear (&mesh);
-  g_free (art.data);
   return good;
 }
 
 static bool
-write_relief (const CliOptions *options, const CeldRelief *relief, CliLayers *input, CliRun *run)
+write_relief (const CliOptions *options, const CeldRelief *relief, const CeldColours *art, CliRun *run)
 {
   CeldPlane heights = { relief->width, relief->height, (size_t) relief->width, relief->z };
 
   return (!options->height || cli_write_heights (options->height, &heights)) &&
-         (!options->mesh || wants_parts (options) || write_surface (options, relief, input, run));
+         (!options->mesh || wants_parts (options) || write_surface (options, relief, art, run));
 }
 
 /* ------------------------------------------------------------------ of levels */
@@ -83,7 +79,7 @@ read_depth (const CliOptions *options, const CeldPlane *levels, CeldPlane *depth
 }
 
 static bool
-relief_of_levels (const CliOptions *options, CliStep *step)
+relief_of_levels (const CliOptions *options, const CeldColours *art, CliStep *step)
 {
   CeldPlane  depth = { 0 };
   CeldRelief relief = { 0 };
@@ -95,7 +91,7 @@ relief_of_levels (const CliOptions *options, CliStep *step)
       good = cli_run_finish (&step->run, celd_relief (&step->ink, cli_step_borders (step), &step->levels,
                                                       depth.data ? &depth : NULL, &options->settings,
                                                       &step->run.host, &relief)) &&
-             write_relief (options, &relief, &step->layers, &step->run);
+             write_relief (options, &relief, art, &step->run);
     }
   g_free (depth.data);
   celd_relief_clear (&relief);
@@ -103,16 +99,13 @@ relief_of_levels (const CliOptions *options, CliStep *step)
 }
 
 static bool
-model_of_levels (const CliOptions *options, CliStep *step)
+model_of_levels (const CliOptions *options, const CeldColours *art, CliStep *step)
 {
   CeldLabels  regions = { 0 };
   CeldPalette palette = { 0 };
-  CeldColours art = { 0 };
   CeldModel   model = { 0 };
   CeldStatus  status;
-  bool        good = (!options->regions ||
-                      cli_regions_read (options->regions, &step->layers, &regions, &palette)) &&
-                     cli_art_read (options->drawing, options->colours, false, &step->layers, &art);
+  bool        good = !options->regions || cli_regions_read (options->regions, &step->layers, &regions, &palette);
 
   if (good)
     {
@@ -122,13 +115,12 @@ model_of_levels (const CliOptions *options, CliStep *step)
       cli_run_stage (&step->run, "mesh");
       status = known ? celd_flatten_levels (known, palette.n, &step->levels) : CELD_OK;
       if (status == CELD_OK)
-        status = celd_model_of_levels (&step->ink, cli_step_borders (step), &step->levels, known, &art, &settings,
+        status = celd_model_of_levels (&step->ink, cli_step_borders (step), &step->levels, known, art, &settings,
                                        &step->run.host, &model);
       good = finish_mesh (options, &step->run, status, model.error) &&
              cli_model_write (options->mesh, &model, cli_model_names_of_regions (&step->levels, known, &palette));
     }
   g_free (regions.data);
-  g_free (art.data);
   celd_palette_clear (&palette);
   celd_model_clear (&model);
   return good;
@@ -137,11 +129,15 @@ model_of_levels (const CliOptions *options, CliStep *step)
 static int
 run_on_levels (const CliOptions *options)
 {
-  CliStep step;
+  CliStep     step;
+  CeldColours art = { 0 };
+  bool        good = cli_step_begin (options, &step) &&
+                     (!options->mesh || cli_art_read (options->drawing, options->colours, false, &step.layers, &art)) &&
+                     (!wants_heights (options) || relief_of_levels (options, &art, &step)) &&
+                     (!wants_parts (options) || model_of_levels (options, &art, &step));
 
-  return cli_step_end (&step, cli_step_begin (options, &step) &&
-                              (!wants_heights (options) || relief_of_levels (options, &step)) &&
-                              (!wants_parts (options) || model_of_levels (options, &step)));
+  g_free (art.data);
+  return cli_step_end (&step, good);
 }
 
 /* ------------------------------------------------------------------ of a drawing with its layers */
@@ -160,37 +156,38 @@ make_order (CeldSession *session, CliRun *run, CeldLabels *labels, const CeldOrd
 }
 
 static bool
-relief_of_session (CeldSession *session, const CliOptions *options, CliLayers *input, CliRun *run)
+relief_of_session (CeldSession *session, const CliOptions *options, const CeldColours *art, CliRun *run)
 {
   CeldRelief relief = { 0 };
   bool       good;
 
   cli_run_stage (run, "relief");
   good = cli_run_finish (run, celd_session_relief (session, &run->host, &relief)) &&
-         write_relief (options, &relief, input, run);
+         write_relief (options, &relief, art, run);
   celd_relief_clear (&relief);
   return good;
 }
 
 static bool
-model_of_session (CeldSession *session, const CliOptions *options, CliLayers *input, CliRun *run)
+model_of_session (CeldSession *session, const CliOptions *options, const CeldColours *art, CliRun *run)
 {
-  CeldColours art = { 0 };
-  CeldModel   model = { 0 };
-  bool        good = cli_art_read (options->input, options->colours, false, input, &art);
+  CeldModel  model = { 0 };
+  CeldStatus status;
+  bool       good;
 
-  if (good)
-    {
-      CeldStatus status;
-
-      cli_run_stage (run, "mesh");
-      status = celd_session_model (session, &art, &run->host, &model);
-      good   = finish_mesh (options, run, status, model.error) &&
-               cli_model_write (options->mesh, &model, cli_model_names (celd_session_palette (session)));
-    }
-  g_free (art.data);
+  cli_run_stage (run, "mesh");
+  status = celd_session_model (session, art, &run->host, &model);
+  good   = finish_mesh (options, run, status, model.error) &&
+           cli_model_write (options->mesh, &model, cli_model_names (celd_session_palette (session)));
   celd_model_clear (&model);
   return good;
+}
+
+bool
+cli_relief_write (CeldSession *session, const CliOptions *options, const CeldColours *art, CliRun *run)
+{
+  return (!wants_heights (options) || relief_of_session (session, options, art, run)) &&
+         (!wants_parts (options) || model_of_session (session, options, art, run));
 }
 
 static int
@@ -216,6 +213,7 @@ run_on_drawing (const CliOptions *options)
   CeldSession     *session = celd_session_new ();
   CliOptions       whole = *options;
   CliLayers        input = { 0 };
+  CeldColours      art = { 0 };
   CliRun           run;
   CeldLabels       labels;
   const CeldOrder *order = NULL;
@@ -225,12 +223,13 @@ run_on_drawing (const CliOptions *options)
   whole.settings = cli_model_settings (options);
   cli_run_begin (&run, options, "reading labels order relief mesh writing");
   cli_run_stage (&run, "reading");
-  good = cli_check (session ? CELD_OK : CELD_NO_MEMORY) && cli_session_load (session, &whole, &input);
+  good = cli_check (session ? CELD_OK : CELD_NO_MEMORY) && cli_session_load (session, &whole, &input) &&
+         (!options->mesh || cli_art_read (options->input, options->colours, false, &input, &art));
   if (good && cli_run_finish (&run, make_order (session, &run, &labels, &order)) &&
-      (!wants_heights (options) || relief_of_session (session, options, &input, &run)) &&
-      (!wants_parts (options) || model_of_session (session, options, &input, &run)))
+      cli_relief_write (session, options, &art, &run))
     code = finish (session, options, &run, &labels, order);
   cli_run_end (&run);
+  g_free (art.data);
   cli_layers_clear (&input);
   celd_session_free (session);
   return code;

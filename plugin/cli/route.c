@@ -110,7 +110,8 @@ finish (CeldSession *session, const char *command, const CliOptions *options, co
 static bool
 needs_art (const CliOptions *options)
 {
-  return options->shaded || options->enhanced || options->layers || options->left || options->right || options->stereo;
+  return options->shaded || options->enhanced || options->layers || options->mesh || options->left || options->right ||
+         options->stereo;
 }
 
 /* The stages of the results that are asked for. */
@@ -123,8 +124,9 @@ plan (const CliOptions *o, bool whole_route)
     return g_strdup ("reading ink labels writing");
   return g_strconcat ("reading ink labels order", o->levels || o->depth || o->normals || o->shading ? " levels" : "",
                       o->depth ? " depth" : "", o->normals || o->shading ? " normals" : "", " writing",
-                      o->shaded ? " light" : "", o->enhanced ? " shadows" : "", o->layers ? " layers writing" : "",
-                      views ? " depth layers scene left right" : "", NULL);
+                      o->shaded || o->tone || o->rim ? " light" : "", o->occlusion ? " occlusion" : "",
+                      o->enhanced || o->shadow || o->view ? " shadows" : "", o->layers ? " layers writing" : "",
+                      o->height || o->mesh ? " relief mesh" : "", views ? " depth layers scene left right" : "", NULL);
 }
 
 /* What a run is made of: the session keeps its results for the next one. */
@@ -153,7 +155,8 @@ run_route (void *data)
   cli_layers_clear (&layers);
   good = good && cli_run_finish (&run, make (session, options, route->whole_route, &run, &results));
   cli_run_stage (&run, "writing");
-  if (good && write_results (session, options, &results) && (!art.data || cli_uses_write (session, options, &art, &run)))
+  if (good && write_results (session, options, &results) &&
+      (!route->whole_route || cli_uses_write (session, options, &art, &run)))
     {
       cli_say_kept (true);
       code = finish (session, route->command, options, &run, &results);

@@ -45,7 +45,7 @@ static const struct { const char *stage; double seconds; } lengths[] = {
   { "levels", 0.2 }, { "depth", 0.3 }, { "normals", 0.3 }, { "light", 0.2 },
   { "shade", 0.5 }, { "shadows", 0.2 }, { "layers", 0.6 }, { "writing", 0.4 },
   { "scene", 0.1 }, { "left", 0.2 }, { "right", 0.2 }, { "views", 0.3 },
-  { "mesh", 1 }, { "relief", 0.5 }, { "keys", 1 }, { "frames", 0.5 },
+  { "mesh", 1 }, { "relief", 0.5 }, { "occlusion", 0.5 }, { "keys", 1 }, { "frames", 0.5 },
   { "lattice", 0.2 }, { "deformation", 0.3 }, { "registration", 0.4 }, { "propagation", 0.5 },
   { "compose", 0.3 }, { "picture", 0.1 }, { "drawing", 0.3 },
 };

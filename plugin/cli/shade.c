@@ -288,30 +288,37 @@ shade_cells (const CliOptions *options, CliRun *run, const Shade *s)
 
 /* Writes lit art, or light on white. */
 static bool
-write_lit (const char *path, const Shade *s, CeldColours *on)
+write_lit (const char *path, const CeldColours *tone, const CeldPlane *gloss, CeldColours *on)
 {
-  return cli_check (celd_light_colours (&s->tone, &s->gloss, on)) && cli_write_colours (path, on);
+  return cli_check (celd_light_colours (tone, gloss, on)) && cli_write_colours (path, on);
 }
 
-static bool
-write_light (const CliOptions *options, Shade *s)
+bool
+cli_light_write (const CliOptions *options, const CeldColours *tone, const CeldPlane *gloss, CeldColours *art)
 {
   CeldColours layer = { 0 };
-  size_t      n = 4 * (size_t) s->levels.width * (size_t) s->levels.height;
-  bool        good = (!options->shaded || write_lit (options->shaded, s, &s->art)) &&
-                     (!options->tone || cli_write_colours (options->tone, &s->tone));
+  bool        good = (!options->shaded || write_lit (options->shaded, tone, gloss, art)) &&
+                     (!options->tone || cli_write_colours (options->tone, tone));
 
-  if (good && (options->rim || (options->shading && s->tone.data)))
-    good = cli_colours_new (s->levels.width, s->levels.height, &layer);
   if (good && options->rim)
-    good = cli_check (celd_light_layer (&s->gloss, &layer)) && cli_write_colours (options->rim, &layer);
-  if (good && options->shading && !s->shading.data)
-    {
-      for (size_t i = 0; i < n; i++)
-        layer.data[i] = 1;
-      good = write_lit (options->shading, s, &layer);
-    }
+    good = cli_colours_new (tone->width, tone->height, &layer) && cli_check (celd_light_layer (gloss, &layer)) &&
+           cli_write_colours (options->rim, &layer);
   g_free (layer.data);
+  return good;
+}
+
+/* Shading in the colours of a matcap. */
+static bool
+write_coloured_shading (const CliOptions *options, const Shade *s)
+{
+  CeldColours white = { 0 };
+  size_t      n = 4 * (size_t) s->levels.width * (size_t) s->levels.height;
+  bool        good = cli_colours_new (s->levels.width, s->levels.height, &white);
+
+  for (size_t i = 0; i < n && good; i++)
+    white.data[i] = 1;
+  good = good && write_lit (options->shading, &s->tone, &s->gloss, &white);
+  g_free (white.data);
   return good;
 }
 
@@ -335,7 +342,8 @@ write_all (const CliOptions *options, Shade *s)
 {
   return (!options->normals || cli_write_normals (options->normals, &s->normals)) &&
          (!s->shading.data || cli_write_shading (options->shading, &s->shading)) &&
-         (!s->tone.data || write_light (options, s)) &&
+         (!s->tone.data || cli_light_write (options, &s->tone, &s->gloss, &s->art)) &&
+         (!(options->shading && options->matcap) || write_coloured_shading (options, s)) &&
          (!options->occlusion || cli_write_values (options->occlusion, &s->occlusion)) &&
          (!options->maps || write_maps (options, s));
 }

@@ -1,5 +1,5 @@
-/* What popup makes of depth in the same run: the drawing with light or with shadows, its layers, and views for two
- * eyes.
+/* What popup makes of depth in the same run: the drawing with light or with shadows, its layers, a model, and views for
+ * two eyes.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -19,62 +19,98 @@ copy_art (const CeldColours *art, CeldColours *copy)
 
 /* ------------------------------------------------------------------ light and shadows */
 
+/* How the drawing is lit, of the levels' size; the caller frees data with g_free in either case. */
 static CeldStatus
-light (CeldSession *session, const CliOptions *options, CliRun *run, CeldColours *lit)
+make_light (CeldSession *session, const CliOptions *options, const CeldPlane *levels, CliRun *run, CeldColours *tone,
+            CeldPlane *gloss)
 {
-  CeldPlane   ink, levels, gloss = { 0 };
+  CeldPlane   ink;
   CeldVectors normals;
-  CeldColours tone = { 0 };
   CeldStatus  status = celd_session_normals (session, &run->host, &normals, NULL);
 
   if (status == CELD_OK)
     status = celd_session_ink (session, &run->host, &ink, NULL);
-  if (status == CELD_OK)
-    status = celd_session_levels (session, &run->host, &levels, NULL);
-  if (status == CELD_OK && !(cli_colours_new (lit->width, lit->height, &tone) &&
-                             cli_plane_new (lit->width, lit->height, &gloss)))
+  if (status == CELD_OK && !(cli_colours_new (levels->width, levels->height, tone) &&
+                             cli_plane_new (levels->width, levels->height, gloss)))
     status = CELD_NO_MEMORY;
-  if (status == CELD_OK)
-    status = celd_light (&normals, &ink, &levels, NULL, &options->settings, &run->host, &tone, &gloss);
-  if (status == CELD_OK)
-    status = celd_light_colours (&tone, &gloss, lit);
+  return status == CELD_OK ? celd_light (&normals, &ink, levels, NULL, &options->settings, &run->host, tone, gloss)
+                           : status;
+}
+
+static bool
+write_light (CeldSession *session, const CliOptions *options, const CeldPlane *levels, const CeldColours *art,
+             CliRun *run)
+{
+  CeldColours lit = { 0 }, tone = { 0 };
+  CeldPlane   gloss = { 0 };
+  bool        good;
+
+  cli_run_stage (run, "light");
+  good = (!options->shaded || copy_art (art, &lit)) &&
+         cli_run_finish (run, make_light (session, options, levels, run, &tone, &gloss)) &&
+         cli_light_write (options, &tone, &gloss, &lit);
+  g_free (lit.data);
   g_free (tone.data);
   g_free (gloss.data);
-  return status;
-}
-
-static CeldStatus
-enhance (CeldSession *session, const CliOptions *options, CliRun *run, CeldColours *enhanced)
-{
-  CeldPlane  levels, change = { 0 };
-  CeldStatus status = celd_session_levels (session, &run->host, &levels, NULL);
-
-  if (status == CELD_OK && !cli_plane_new (enhanced->width, enhanced->height, &change))
-    status = CELD_NO_MEMORY;
-  if (status == CELD_OK)
-    status = celd_enhance (&levels, &options->settings, &run->host, &change);
-  if (status == CELD_OK)
-    status = celd_enhance_colours (&change, enhanced);
-  g_free (change.data);
-  return status;
-}
-
-/* Writes the art as `change` leaves it. */
-static bool
-write_changed (const char *path, const char *stage, CeldSession *session, const CliOptions *options,
-               const CeldColours *art, CliRun *run,
-               CeldStatus (*change) (CeldSession *session, const CliOptions *options, CliRun *run, CeldColours *art))
-{
-  CeldColours changed = { 0 };
-  bool        good = copy_art (art, &changed);
-
-  cli_run_stage (run, stage);
-  good = good && cli_run_finish (run, change (session, options, run, &changed)) && cli_write_colours (path, &changed);
-  g_free (changed.data);
   return good;
 }
 
-/* ------------------------------------------------------------------ layers and views */
+static bool
+write_occlusion (const CliOptions *options, const CeldPlane *levels, CliRun *run)
+{
+  CeldPlane occlusion = { 0 };
+  bool      good = cli_plane_new (levels->width, levels->height, &occlusion);
+
+  cli_run_stage (run, "occlusion");
+  good = good && cli_run_finish (run, celd_occlusion (levels, &options->settings, &run->host, &occlusion)) &&
+         cli_write_values (options->occlusion, &occlusion);
+  g_free (occlusion.data);
+  return good;
+}
+
+static bool
+write_shadows (const CliOptions *options, const CeldPlane *levels, const CeldColours *art, CliRun *run)
+{
+  CeldColours enhanced = { 0 };
+  CeldPlane   change = { 0 };
+  bool        good = (!options->enhanced || copy_art (art, &enhanced)) &&
+                     cli_plane_new (levels->width, levels->height, &change);
+
+  cli_run_stage (run, "shadows");
+  good = good && cli_run_finish (run, celd_enhance (levels, &options->settings, &run->host, &change)) &&
+         cli_shadows_write (options, levels, &change, &enhanced);
+  g_free (enhanced.data);
+  g_free (change.data);
+  return good;
+}
+
+static bool
+write_light_and_shadows (CeldSession *session, const CliOptions *options, const CeldColours *art, CliRun *run)
+{
+  bool      lit = options->shaded || options->tone || options->rim;
+  bool      shadows = options->enhanced || options->shadow || options->view;
+  CeldPlane levels;
+
+  if (!lit && !shadows && !options->occlusion)
+    return true;
+  return cli_run_finish (run, celd_session_levels (session, &run->host, &levels, NULL)) &&
+         (!lit || write_light (session, options, &levels, art, run)) &&
+         (!options->occlusion || write_occlusion (options, &levels, run)) &&
+         (!shadows || write_shadows (options, &levels, art, run));
+}
+
+/* ------------------------------------------------------------------ layers, models and views */
+
+/* The same with encoded colours, unless linear ones are wanted. */
+static bool
+convert_art (const CeldColours *art, bool linear, CeldColours *copy)
+{
+  if (!copy_art (art, copy))
+    return false;
+  if (!linear)
+    cli_convert_light (true, false, copy->width, copy->height, copy->data);
+  return true;
+}
 
 static bool
 write_layers (CeldSession *session, const CliOptions *options, const CeldColours *art, CliRun *run)
@@ -82,12 +118,25 @@ write_layers (CeldSession *session, const CliOptions *options, const CeldColours
   bool        linear = cli_layers_are_linear (options->layers, options->compositing);
   CeldLayers *layers = NULL;
   CeldColours copy = { 0 };
-  bool        good = copy_art (art, &copy);
+  bool        good = convert_art (art, linear, &copy);
 
-  if (good && !linear)
-    cli_convert_light (true, false, copy.width, copy.height, copy.data);
   good = good && cli_layers_write (options->layers, session, linear, &copy, run, &layers);
   celd_layers_free (layers);
+  g_free (copy.data);
+  return good;
+}
+
+/* Settings of a model depend on the kind of file, too. */
+static bool
+write_relief (CeldSession *session, const CliOptions *options, CeldSettings settings, const CeldColours *art,
+              CliRun *run)
+{
+  CeldColours copy = { 0 };
+  bool        good;
+
+  settings.mesh_kind = cli_model_settings (options).mesh_kind;
+  good = cli_check (celd_session_set_settings (session, &settings)) &&
+         (!options->mesh || convert_art (art, false, &copy)) && cli_relief_write (session, options, &copy, run);
   g_free (copy.data);
   return good;
 }
@@ -120,11 +169,9 @@ cli_uses_write (CeldSession *session, const CliOptions *options, const CeldColou
   settings.near_level = usual.near_level;
   settings.far_level  = usual.far_level;
   return cli_check (celd_session_set_settings (session, &settings)) &&
-         (!options->shaded ||
-          write_changed (options->shaded, "light", session, options, art, run, light)) &&
-         (!options->enhanced ||
-          write_changed (options->enhanced, "shadows", session, options, art, run, enhance)) &&
+         write_light_and_shadows (session, options, art, run) &&
          (!options->layers || write_layers (session, options, art, run)) &&
+         (!(options->height || options->mesh) || write_relief (session, options, settings, art, run)) &&
          (!(options->left || options->right || options->stereo) ||
           write_views (session, options, settings, art, run));
 }

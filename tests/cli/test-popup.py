@@ -56,6 +56,26 @@ class OneRun(Test):
         self.same_layers(read_exr(self.path('linear.exr'), WIDTH, HEIGHT)[0],
                          read_exr(self.path('alone.exr'), WIDTH, HEIGHT)[0], 1e-4)
 
+    def test_layers_of_light_and_models(self):
+        """Those of shade, enhance and relief, also without the art, and whatever the numbers of levels are."""
+        names = {'shade': ('tone', 'rim', 'occlusion'), 'enhance': ('shadow', 'view')}
+        light = ['--rim-light', '0.5', '--specular', '0.3']
+        self.celdepth('popup', *INPUT, *light, '--encoding', 'rank', '--height', 'height.npy', '--mesh', 'page.glb',
+                      *(word for group in names.values() for name in group for word in (f'--{name}', f'{name}.png')))
+        self.celdepth('popup', *INPUT, '--levels', 'levels.npy', '--mesh', 'page.stl')
+        for command, *words in (('shade', '--drawing', 'page.png', *light), ('enhance',)):
+            self.celdepth(command, 'levels.npy', *words,
+                          *(word for name in names[command] for word in (f'--{name}', f'{name}-alone.png')))
+            for name in names[command]:
+                self.same(f'{name}.png', f'{name}-alone.png')
+                self.assertGreater(np.ptp(np.atleast_3d(self.picture(f'{name}.png').astype(int)), (0, 1)).max(), 20)
+        self.celdepth('relief', *INPUT, '--height', 'height-alone.npy', '--mesh', 'alone.glb')
+        self.celdepth('relief', *INPUT, '--mesh', 'alone.stl')
+        np.testing.assert_array_equal(np.load(self.path('height.npy')), np.load(self.path('height-alone.npy')))
+        for name in 'glb', 'stl':
+            with open(self.path(f'page.{name}'), 'rb') as one, open(self.path(f'alone.{name}'), 'rb') as other:
+                self.assertEqual(one.read(), other.read())
+
     def test_light(self):
         """From the upper left: parts are lighter there than at the lower right, and the page is as it was."""
         self.celdepth('popup', *INPUT, '--shaded', 'lit.png', '--light-azimuth', '135')
