@@ -1,7 +1,9 @@
-# A screen of its own for a host that needs one.  Sourced, not run.
+# A screen of its own for a host that needs one, and its windows.  Sourced, not run.
 #
-#   screen_start FOLDER    starts Xvfb on a free display, and sets DISPLAY; FOLDER gets a file
+#   screen_start FOLDER      starts Xvfb on a free display, and sets DISPLAY; FOLDER gets a file
 #   screen_stop
+#   window NAME [SECONDS]    waits for a window with this name, and prints its number
+#   program_end PID          ends a program that runs in the background
 #
 # SPDX-License-Identifier: LGPL-3.0-or-later
 
@@ -23,4 +25,27 @@ screen_stop ()
 {
   kill "$screen_server"
   wait "$screen_server"
+}
+
+# Windows that come and go make xdotool fail now and then.
+window ()
+{
+  for _ in $(seq "$((2 * ${2:-120}))"); do
+    found=$(xdotool search --onlyvisible --name "$1" 2>/dev/null | tail -n 1)
+    [ -n "$found" ] && echo "$found" && return
+    sleep 0.5
+  done
+  return 1
+}
+
+# A program that hangs as it ends must not keep what comes after it.
+program_end ()
+{
+  kill "$1"
+  for _ in $(seq 20); do
+    kill -0 "$1" 2>/dev/null || break
+    sleep 0.5
+  done
+  kill -9 "$1" 2>/dev/null
+  wait "$1" 2>/dev/null
 }
