@@ -100,17 +100,19 @@ spread (CeldArrowStroke *stroke, const uint32_t *start, size_t n)
     }
 }
 
-/* Fills in the sums. */
+/* Fills in the sums.  A stroke in several pieces, some of which are not reached, gets a length too short for an arrow. */
 static void
-sum_by_distance (CeldArrowStroke *stroke, float longest)
+sum_by_distance (CeldArrowStroke *stroke, float farthest)
 {
+  float longest = farthest < NOT_REACHED ? farthest : 0;
+
   stroke->n_sums = (size_t) longest + 2;
   for (size_t i = 0; i < stroke->n_sums; i++)
     stroke->sums[i] = (CeldStrokeSums) { 0 };
   for (size_t i = 0; i < stroke->n; i++)
     {
       CeldPoint       p = celd_stroke_point (stroke, stroke->pixel[i]);
-      CeldStrokeSums *f = &stroke->sums[(size_t) stroke->distance[stroke->pixel[i]] + 1];
+      CeldStrokeSums *f = &stroke->sums[(size_t) fminf (stroke->distance[stroke->pixel[i]], longest) + 1];
 
       f->count++;
       f->x += p.x;
