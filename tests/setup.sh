@@ -75,7 +75,8 @@ build_tree ()
 }
 
 # A build with a sanitizer, by -O1: more of its time is the compiler's than that of what runs.  By clang, so that one
-# build shows the other compiler's warnings, too; its checks of C++ types need programs in C++, and ours are in C.
+# build shows the other compiler's warnings, too.  Its checks of C++ types need programs in C++, and ours are in C; and it
+# finds what throws exceptions at the start only, but the module for files is loaded later: so all programs load C++.
 build_sanitized ()
 (
   folder=$1 sanitizer=$2
@@ -83,7 +84,7 @@ build_sanitized ()
   export CC CXX
   [ -e "$folder/build.ninja" ] ||
     meson setup "$folder" -Ddebug=true -Doptimization=1 -Db_lundef=false -Db_sanitize="$sanitizer" \
-      -Dcpp_args=-fno-sanitize=function,vptr || exit 1
+      -Dcpp_args=-fno-sanitize=function,vptr -Dc_link_args=-Wl,--no-as-needed,-lstdc++,--as-needed || exit 1
   shift 2
   ninja -C "$folder" "$@"
 )
