@@ -136,7 +136,7 @@ read_lines (CeldJoinedLines *s, const CeldArrowLayer *layer, CeldRelations *rela
   return status;
 }
 
-/* ------------------------------------------------------------------ */
+/* ------------------------------------------------------------------ what is hidden, and where lines meet */
 
 /* Finds the pixels of the mask that have paint of other colours. */
 static CeldStatus
