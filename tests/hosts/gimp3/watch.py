@@ -6,6 +6,7 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 import os
 import time
+import traceback
 
 import gi
 gi.require_version('Gegl', '0.4')
@@ -43,16 +44,30 @@ def is_white(layer):
     return min(data) == 255
 
 
+def state(image, depth):
+    words = f'{tree(image.get_layers())} {kept(image)} {with_paths(image)}'
+    return words + ' white' if depth and is_white(depth) else words
+
+
+def look():
+    """Fills the layer if it is wanted, and writes the state."""
+    images = Gimp.get_images()
+    if not images:
+        return
+    depth = find_depth(images[0].get_layers())
+    if os.path.exists(os.path.join(OUT, 'fill')):
+        depth.edit_fill(Gimp.FillType.WHITE)
+        os.remove(os.path.join(OUT, 'fill'))
+    words = state(images[0], depth)
+    with open(os.path.join(OUT, 'state.new'), 'w') as f:
+        print(words, file=f)
+    os.replace(os.path.join(OUT, 'state.new'), os.path.join(OUT, 'state.txt'))
+
+
 Gegl.init(None)
 while not os.path.exists(os.path.join(OUT, 'stop')):
-    images = Gimp.get_images()
-    if images:
-        depth = find_depth(images[0].get_layers())
-        if os.path.exists(os.path.join(OUT, 'fill')):
-            depth.edit_fill(Gimp.FillType.WHITE)
-            os.remove(os.path.join(OUT, 'fill'))
-        with open(os.path.join(OUT, 'state.new'), 'w') as f:
-            print(tree(images[0].get_layers()), kept(images[0]), with_paths(images[0]), file=f, end='')
-            print(' white' if depth and is_white(depth) else '', file=f)
-        os.replace(os.path.join(OUT, 'state.new'), os.path.join(OUT, 'state.txt'))
+    try:
+        look()
+    except Exception:  # undo may remove a layer while it is looked at: GIMP then has no name, size or pixels of it
+        traceback.print_exc()
     time.sleep(0.5)
