@@ -1,7 +1,8 @@
 # Writes the names of the layers of the open image to $CELDEPTH_OUT/state.txt, twice a second, until there is a file
 # $CELDEPTH_OUT/stop; then the plug-in's parasites, those that would save a path of this folder in the image's file, and
-# whether the layer Depth is white, which a file $CELDEPTH_OUT/fill makes it in a step of undo.  For tests with a screen
-# and the Python interpreter of GIMP 3.
+# whether the layer Depth is white, which a file $CELDEPTH_OUT/fill makes it in a step of undo.  Its pixels are not read
+# before, because undo may remove it then, and GIMP kills a plug-in that reads pixels of a layer that is gone.  For tests
+# with a screen and the Python interpreter of GIMP 3.
 #
 # SPDX-License-Identifier: LGPL-3.0-or-later
 import os
@@ -44,30 +45,25 @@ def is_white(layer):
     return min(data) == 255
 
 
-def state(image, depth):
-    words = f'{tree(image.get_layers())} {kept(image)} {with_paths(image)}'
-    return words + ' white' if depth and is_white(depth) else words
-
-
-def look():
-    """Fills the layer if it is wanted, and writes the state."""
-    images = Gimp.get_images()
-    if not images:
-        return
-    depth = find_depth(images[0].get_layers())
+def look(image, filled):
+    """Fills the layer if it is wanted, and writes the state; has it been filled?"""
+    depth = find_depth(image.get_layers())
     if os.path.exists(os.path.join(OUT, 'fill')):
-        depth.edit_fill(Gimp.FillType.WHITE)
+        filled = depth.edit_fill(Gimp.FillType.WHITE)
         os.remove(os.path.join(OUT, 'fill'))
-    words = state(images[0], depth)
+    white = ' white' if filled and depth and is_white(depth) else ''
     with open(os.path.join(OUT, 'state.new'), 'w') as f:
-        print(words, file=f)
+        print(f'{tree(image.get_layers())} {kept(image)} {with_paths(image)}{white}', file=f)
     os.replace(os.path.join(OUT, 'state.new'), os.path.join(OUT, 'state.txt'))
+    return filled
 
 
 Gegl.init(None)
+is_filled = False
 while not os.path.exists(os.path.join(OUT, 'stop')):
+    images = Gimp.get_images()
     try:
-        look()
-    except Exception:  # undo may remove a layer while it is looked at: GIMP then has no name, size or pixels of it
+        is_filled = look(images[0], is_filled) if images else False
+    except (AttributeError, TypeError):  # an item was removed meanwhile: GIMP has no name of it, or no items in it
         traceback.print_exc()
     time.sleep(0.5)
