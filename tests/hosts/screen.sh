@@ -11,6 +11,7 @@ screen_server=
 
 screen_start ()
 {
+  rm -f "$1/display" # of the screen before
   Xvfb -noreset -displayfd 3 -screen 0 1500x1100x24 >/dev/null 2>&1 3>"$1/display" &
   screen_server=$!
   for _ in $(seq 60); do
