@@ -296,8 +296,8 @@ CeldStatus celd_node_marks_find (const CeldJoinedLines *lines, size_t node, cons
 typedef struct { size_t end[2]; double cost; bool on; } CeldArrowPass;
 
 /* Which ends have heads or dots, and where arrows pass.  Found are, of each line: the first line of its arrow; of that
- * line the heads of the arrow; and what the best choice with other heads of the line costs more, and the best one in which
- * an arrow passes or does not pass at its ends that does or did not. */
+ * line the heads of the arrow; and what the best choice costs more in which the line has other heads (margin), and in
+ * which one pass at its ends is on that is off, or off that is on (pass_margin). */
 typedef struct
 {
   const CeldJoinedLines *lines;

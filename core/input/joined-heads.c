@@ -16,9 +16,9 @@
 #define FREE_TURN      0.35 /* ... and by which it may turn for a cost of 1; ... */
 #define MOST_BEND      1.3  /* ... the same at the corner of a line */
 #define FREE_BEND      0.7
-#define CLEAR_HEAD     0.5  /* cost by which the heads of an arrow must be better than others of its lines, ... */
+#define CLEAR_HEAD     0.5  /* cost by which other heads of the lines of an arrow must be worse, ... */
 #define CLEAR_DOT      1    /* ... or dots, ... */
-#define CLEAR_PASS     1    /* ... and where it passes than if it passed elsewhere */
+#define CLEAR_PASS     1    /* ... and any pass that is changed */
 #define MOST_REST      1.5  /* cost of a node where all is clear, ... */
 #define MORE_REST      1    /* ... and for each head more than one: the paint of heads on each other fits none exactly */
 #define MOST_OFF       1.5  /* widths by which a line may pass the place where it ends, ... */
