@@ -156,6 +156,12 @@ step_log ()
   echo "$logs/$(echo "$1" | tr -c 'a-zA-Z0-9\n' -).log"
 }
 
+# What an earlier run left of a step does not count for one that is not reached.
+step_forget ()
+{
+  rm -f "$(step_log "$1").status"
+}
+
 # Runs a step, and leaves its exit status and seconds beside its log.
 step_run ()
 {
