@@ -14,7 +14,7 @@
  *   step.c      for order, expand, smooth,      run.c       progress, cancelling, timings
  *               relief                          threads.c   threads for loops of core
  *   scene.c     for stereo and wiggle           model.c     for relief
- *   uses.c      for popup
+ *   uses.c      for popup                       maps.c      --maps, for shade and popup
  *   composition.c  for compose                  nearest-name.c  "Did you mean ...?"
  *   sequence.c  frames of a clip                clip.c      --clip
  *   clip-keys.c, clip-frame.c, review.c         for propagate; the first two also for inbetween
@@ -365,11 +365,34 @@ float cli_nearest_level (const CeldPlane *levels);
 /* The label of the background; 0: there is none. */
 uint32_t cli_page_of (const CeldPalette *palette);
 
-/* ------------------------------------------------------------------ shade.c */
+/* ------------------------------------------------------------------ maps.c */
 
 #define CLI_MAPS 3
+
+/* Maps of normals, occlusion and highlights. */
+typedef struct { CeldColours map[CLI_MAPS]; } CliMaps;
+
 /* The name of a map for --maps: "hero_n.png", "hero_o.png", "hero_s.png" for "hero.png"; free with g_free. */
 char *cli_map_name (const char *path, int map);
+
+/* Reads a whole number at *text, and moves *text after it; false if there is none from `least` to `most`. */
+bool cli_number_read (const char **text, int least, int most, int *number);
+
+/* Whether --maps and --padding have values that make sense; if not, prints why. */
+bool cli_maps_check (CliOptions *options);
+
+/* Copies normals; free data with g_free. */
+bool cli_normals_copy (const CeldVectors *normals, CeldVectors *copy);
+/* Lets green in normals point down (--directx). */
+void cli_normals_down (CeldVectors *normals);
+
+/* Maps of a picture, or of one cell of it, from its art in linear light, normals and occlusion.  The caller clears them
+ * in any case. */
+bool       cli_maps_new   (int width, int height, CliMaps *maps);
+CeldStatus cli_maps_make  (const CliOptions *options, const CeldColours *art, const CeldVectors *normals,
+                           const CeldPlane *occlusion, const CeldHost *host, CliMaps *maps);
+bool       cli_maps_write (const char *path, const CliMaps *maps);
+void       cli_maps_clear (CliMaps *maps);
 
 /* ------------------------------------------------------------------ layers.c */
 
@@ -417,9 +440,19 @@ int  cli_scene_finish  (const CliOptions *options, const char *command, const Cl
 
 /* ------------------------------------------------------------------ stereo.c */
 
-/* Writes the views of two eyes that the options name.  Frees the scene if no others are wanted, because writing takes
- * memory. */
+/* Writes the views that the options name: of two eyes, as a quilt, as a sequence. */
 bool cli_views_write (const CliOptions *options, CliScene *s);
+/* Whether there are such options; and the stages of a run that makes them, or an animation, of a scene; free with
+ * g_free. */
+bool  cli_views_wanted (const CliOptions *options);
+char *cli_views_stages (const CliOptions *options);
+
+/* ------------------------------------------------------------------ wiggle.c */
+
+#define CLI_WIGGLE_DISPARITY 0.05f /* of the width; more than in stereo, since motion alone has to show depth (chosen) */
+
+/* Writes the animation that the options name, of a scene with that disparity. */
+bool cli_wiggle_write (const CliOptions *options, CliScene *s);
 
 /* ------------------------------------------------------------------ shade.c, enhance.c */
 

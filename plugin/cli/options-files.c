@@ -92,18 +92,20 @@ static const FileOption files[] = {
     "write a white layer of highlights and rims, to put over the product" },
   { "occlusion", CLI_POPUP | CLI_SHADE, 0, OUTPUT, MEMBER (occlusion), "OUT",
     "write ambient occlusion: the fraction of light that nearer parts let through" },
-  { "maps", CLI_SHADE, 0, MAPS, MEMBER (maps), "NAME.png",
+  { "maps", CLI_POPUP | CLI_SHADE, 0, MAPS, MEMBER (maps), "NAME.png",
     "write maps for game engines: NAME_n.png (normals), NAME_o.png (occlusion), NAME_s.png (specular)" },
-  { "padding", CLI_SHADE, 0, HOW, MEMBER (padding_text), "0-64",
+  { "padding", CLI_POPUP | CLI_SHADE, 0, HOW, MEMBER (padding_text), "0-64",
     "the number of transparent pixels around a sprite that maps fill (default: 4)" },
   { "left", CLI_POPUP | CLI_STEREO, 0, OUTPUT, MEMBER (left), "OUT", "write the view of the left eye" },
   { "right", CLI_POPUP | CLI_STEREO, 0, OUTPUT, MEMBER (right), "OUT", "write the view of the right eye" },
   { "joined", CLI_POPUP | CLI_STEREO, 0, JOINED, MEMBER (stereo), "OUT",
     "write both views in one picture (see --stereo), or in one .mpo file" },
-  { "quilt", CLI_STEREO, 0, OUTPUT, MEMBER (quilt), "OUT",
+  { "quilt", CLI_POPUP | CLI_STEREO, 0, OUTPUT, MEMBER (quilt), "OUT",
     "write all --views as tiles of one picture (see --columns)" },
-  { "sequence", CLI_STEREO, 0, FRAMES, MEMBER (sequence), "OUT",
+  { "sequence", CLI_POPUP | CLI_STEREO, 0, FRAMES, MEMBER (sequence), "OUT",
     "write all --views in a file or folder: .mpo, .gif, or a folder of PNG files" },
+  { "wiggle", CLI_POPUP, 0, FRAMES, MEMBER (wiggle), "OUT",
+    "write an animation of a camera that moves: .gif, or a folder of PNG files; for it --disparity is 0.05 if not given" },
   { "output", CLI_WIGGLE, CLI_WIGGLE, FRAMES, MEMBER (wiggle), "OUT",
     "write the animation: .gif, or a folder of PNG files" },
   { "colours", COLOURED, 0, INPUT, MEMBER (colours), "PICTURE",
@@ -214,13 +216,26 @@ const char *
 cli_files_ending (const CliCommand *command, const char *option)
 {
   for (size_t i = 0; i < G_N_ELEMENTS (files); i++)
-    if (files[i].steps & (int) command->step && files[i].kind >= OUTPUT && !strcmp (files[i].name, option))
+    if (files[i].steps & (int) command->step && files[i].kind >= MAPS && !strcmp (files[i].name, option))
       return files[i].kind == STACK                  ? "ora"
+             : files[i].kind == FRAMES               ? "gif"
              : files[i].kind == MESH                 ? "glb"
              : files[i].kind != REPORT               ? "png"
              : files[i].offset == MEMBER (report)    ? "json"
                                                      : "txt";
   return NULL;
+}
+
+/* Is the file an output that this command names in another way? */
+static bool
+is_of_other_command (const FileOption *file, CliSteps step)
+{
+  if (file->steps & (int) step)
+    return false;
+  for (size_t i = 0; i < G_N_ELEMENTS (files); i++)
+    if (files[i].offset == file->offset && files[i].steps & (int) step)
+      return true;
+  return false;
 }
 
 void
@@ -230,7 +245,7 @@ cli_files_given (const CliOptions *options, GArray *given)
     {
       char *path = *file_name ((CliOptions *) options, &files[i]);
 
-      if (path && !is_text (files[i].kind))
+      if (path && !is_text (files[i].kind) && !is_of_other_command (&files[i], options->step))
         g_array_append_val (given, ((CliFile) { files[i].name, files[i].kind, path }));
     }
 }
@@ -344,7 +359,7 @@ cli_files_check (const CliCommand *command, CliOptions *options)
 
       if (!name && files[i].required & (int) command->step)
         return cli_error ("--%s is missing.", files[i].name);
-      if (!name || files[i].kind < OUTPUT)
+      if (!name || files[i].kind < OUTPUT || !(files[i].steps & (int) command->step))
         continue;
       outputs++;
       if (files[i].kind == OUTPUT && !cli_can_write (name))

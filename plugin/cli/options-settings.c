@@ -315,6 +315,19 @@ cli_settings_complete (CliOptions *options)
     }
 }
 
+bool
+cli_setting_given (const CliOptions *options, const char *name)
+{
+  for (guint i = 0; i < options->offered->len; i++)
+    {
+      const SettingOption *option = options->offered->pdata[i];
+
+      if (!strcmp (option->row->name, name))
+        return option->given;
+    }
+  return false;
+}
+
 void
 cli_settings_clear (CliOptions *options)
 {

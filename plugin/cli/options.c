@@ -180,7 +180,7 @@ parse (const CliCommand *command, int *argc, char ***argv, CliOptions *options)
     cli_clip_options_append (options, &list);
   cli_files_append (command, options, &list);
   cli_counts_append (command, &list);
-  if (command->step == CLI_SHADE)
+  if (command->step & (CLI_POPUP | CLI_SHADE))
     cli_list_add (&list, "Output", (GOptionEntry) {
       "directx", 0, 0, G_OPTION_ARG_NONE, &flags.directx,
       "green in normals points down, as in DirectX, instead of up", NULL });

@@ -63,6 +63,8 @@ bool cli_stream_output (CliStreams *streams, const char *what, const char *endin
 void cli_settings_append (const CliCommand *command, CliOptions *options, CliOptionList *list);
 /* After parsing: sets what the chosen preset says of settings that were not given. */
 void cli_settings_complete (CliOptions *options);
+/* Whether a setting was given by the command line. */
+bool cli_setting_given (const CliOptions *options, const char *name);
 void cli_settings_clear (CliOptions *options);
 /* Reads yes, no, true or false; false: it is none of these, and *on stays as it is. */
 bool cli_switch_read (const char *text, bool *on);

@@ -40,6 +40,22 @@ cli_page_take_fingerprint (CliPage *page)
   return page->fingerprint != NULL;
 }
 
+/* Whether a result is there, or all its files if there are several. */
+static bool
+is_there (const char *path, bool maps)
+{
+  bool there = maps || g_file_test (path, G_FILE_TEST_IS_REGULAR);
+
+  for (int map = 0; maps && map < CLI_MAPS && there; map++)
+    {
+      char *name = cli_map_name (path, map);
+
+      there = g_file_test (name, G_FILE_TEST_IS_REGULAR);
+      g_free (name);
+    }
+  return there;
+}
+
 bool
 cli_page_is_made (const CliPage *page, bool *contradicted)
 {
@@ -54,10 +70,11 @@ cli_page_is_made (const CliPage *page, bool *contradicted)
   *contradicted = made && json_object_get_boolean_member_with_default (state, "contradicted", FALSE);
   for (guint i = 0; i < book->results->len && made; i++)
     {
-      char *result = cli_book_result_path (book, page->name, &g_array_index (book->results, CliResult, i));
+      const CliResult *result = &g_array_index (book->results, CliResult, i);
+      char            *result_path = cli_book_result_path (book, page->name, result);
 
-      made = g_file_test (result, G_FILE_TEST_IS_REGULAR);
-      g_free (result);
+      made = is_there (result_path, !strcmp (result->option, "maps"));
+      g_free (result_path);
     }
   g_object_unref (parser);
   g_free (path);

@@ -11,7 +11,7 @@ check (CliOptions *options)
     return cli_error ("--watch shows one page: leave out --output-dir.");
   if (options->compositing && !options->layers)
     return cli_error ("--compositing is about --layers, which is missing.");
-  if (!cli_compositing_check (options))
+  if (!cli_compositing_check (options) || !cli_maps_check (options))
     return false;
   return options->settings.light_model != CELD_MODEL_MATCAP ||
          cli_error ("--light-model matcap needs a picture of a ball: use celdepth shade with --matcap.");
@@ -40,7 +40,7 @@ const CliCommand cli_popup_command = {
               "hold-gaps tolerance bulge bevel creases frame-outline light-model toon-steps light-background light "
               "light-azimuth light-elevation ambient light-x light-y light-height specular shininess rim-light "
               "rim-power enhance shadow-size shadow-strength shadow-offset shadow-range complete margin stereo "
-              "disparity convergence floating-window screen-width relief-bulge relief-from relief-depth mesh-kind "
+              "disparity convergence path floating-window screen-width relief-bulge relief-from relief-depth mesh-kind "
               "mesh-size mesh-plate mesh-error most-vertices",
   .output   = "depth",
   .check    = check,

@@ -69,6 +69,25 @@ write_layer (CeldSession *session, const char *path, const Results *results,
   return good;
 }
 
+/* The session keeps its normals, so that a copy is changed. */
+static bool
+write_normals (const CliOptions *options, const CeldVectors *normals)
+{
+  CeldVectors copy;
+  bool        good;
+
+  if (!options->directx)
+    return cli_write_normals (options->normals, normals);
+  good = cli_check (cli_normals_copy (normals, &copy) ? CELD_OK : CELD_NO_MEMORY);
+  if (good)
+    {
+      cli_normals_down (&copy);
+      good = cli_write_normals (options->normals, &copy);
+    }
+  g_free (copy.data);
+  return good;
+}
+
 static bool
 write_results (CeldSession *session, const CliOptions *options, const Results *results)
 {
@@ -84,7 +103,7 @@ write_results (CeldSession *session, const CliOptions *options, const Results *r
          (!options->unexpanded   || cli_write_depth (options->unexpanded, &results->unexpanded, nearest)) &&
          (!options->levels  || cli_write_depth (options->levels, &results->levels, nearest)) &&
          (!options->depth   || cli_write_depth (options->depth, &results->depth, nearest)) &&
-         (!options->normals || cli_write_normals (options->normals, &results->normals)) &&
+         (!options->normals || write_normals (options, &results->normals)) &&
          (!options->shading || cli_write_shading (options->shading, &results->shading));
 }
 
@@ -110,23 +129,27 @@ finish (CeldSession *session, const char *command, const CliOptions *options, co
 static bool
 needs_art (const CliOptions *options)
 {
-  return options->shaded || options->enhanced || options->layers || options->mesh || options->left || options->right ||
-         options->stereo;
+  return options->shaded || options->enhanced || options->maps || options->layers || options->mesh ||
+         cli_views_wanted (options) || options->wiggle;
 }
 
 /* The stages of the results that are asked for. */
 static char *
 plan (const CliOptions *o, bool whole_route)
 {
-  bool views = o->left || o->right || o->stereo;
+  char *views, *stages;
 
   if (!whole_route)
     return g_strdup ("reading ink labels writing");
-  return g_strconcat ("reading ink labels order", o->levels || o->depth || o->normals || o->shading ? " levels" : "",
-                      o->depth ? " depth" : "", o->normals || o->shading ? " normals" : "", " writing",
-                      o->shaded || o->tone || o->rim ? " light" : "", o->occlusion ? " occlusion" : "",
-                      o->enhanced || o->shadow || o->view ? " shadows" : "", o->layers ? " layers writing" : "",
-                      o->height || o->mesh ? " relief mesh" : "", views ? " depth layers scene left right" : "", NULL);
+  views  = cli_views_wanted (o) || o->wiggle ? cli_views_stages (o) : NULL;
+  stages = g_strconcat ("reading ink labels order", o->levels || o->depth || o->normals || o->shading ? " levels" : "",
+                        o->depth ? " depth" : "", o->normals || o->shading ? " normals" : "", " writing",
+                        o->shaded || o->tone || o->rim ? " light" : "", o->occlusion ? " occlusion" : "",
+                        o->maps ? " maps" : "", o->enhanced || o->shadow || o->view ? " shadows" : "",
+                        o->layers ? " layers writing" : "", o->height || o->mesh ? " relief mesh" : "",
+                        views ? " depth layers scene" : "", views, NULL);
+  g_free (views);
+  return stages;
 }
 
 /* What a run is made of: the session keeps its results for the next one. */

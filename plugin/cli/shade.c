@@ -4,8 +4,6 @@
  */
 #include "cli.h"
 
-#include <string.h>
-
 /* Input and results; data NULL: not given, or not asked for. */
 typedef struct
 {
@@ -15,48 +13,23 @@ typedef struct
   CeldColours art, matcap;
   CeldVectors normals;
   CeldPlane   ink, borders, shading, gloss, occlusion;
-  CeldColours tone, maps[CLI_MAPS];
+  CeldColours tone;
+  CliMaps     maps;
 } Shade;
 
-static const char *const suffixes[CLI_MAPS] = { "_n", "_o", "_s" };
-
-char *
-cli_map_name (const char *path, int map)
-{
-  const char *ending = strrchr (path, '.'), *slash = strrchr (path, '/');
-  int         stem = ending && (!slash || ending > slash) ? (int) (ending - path) : (int) strlen (path);
-
-  return g_strdup_printf ("%.*s%s%s", stem, path, suffixes[map], path + stem);
-}
-
 /* ------------------------------------------------------------------ options */
-
-/* Reads a whole number at *text, and moves *text after it. */
-static bool
-read_number (const char **text, int least, int most, int *number)
-{
-  char  *end = NULL;
-  gint64 read = g_ascii_isdigit (**text) ? g_ascii_strtoll (*text, &end, 10) : -1;
-
-  *text   = end ? end : *text;
-  *number = (int) CLAMP (read, 0, CELD_MAX_SIDE);
-  return read >= least && read <= most;
-}
 
 static bool
 check (CliOptions *options)
 {
-  const char *grid = options->grid, *padding = options->padding_text;
+  const char *grid = options->grid;
 
   options->grid_columns = options->grid_rows = 1;
-  options->padding = 4;
-  if (grid && !(read_number (&grid, 1, CELD_MAX_SIDE, &options->grid_columns) && *grid++ == 'x' &&
-                read_number (&grid, 1, CELD_MAX_SIDE, &options->grid_rows) && !*grid))
+  if (grid && !(cli_number_read (&grid, 1, CELD_MAX_SIDE, &options->grid_columns) && *grid++ == 'x' &&
+                cli_number_read (&grid, 1, CELD_MAX_SIDE, &options->grid_rows) && !*grid))
     return cli_error ("--grid cannot be '%s': the value must be columns and rows, such as 8x4.", options->grid);
-  if (padding && !(read_number (&padding, 0, 64, &options->padding) && !*padding))
-    return cli_error ("--padding cannot be '%s': the value must be 0-64.", options->padding_text);
-  if (options->maps && !cli_is_png (options->maps)) /* other formats premultiply colours, or have no 8 bits */
-    return cli_error ("--maps %s: the name must end in .png.", options->maps);
+  if (!cli_maps_check (options))
+    return false;
   if (options->matcap)
     options->settings.light_model = CELD_MODEL_MATCAP;
   return options->settings.light_model != CELD_MODEL_MATCAP || options->matcap ||
@@ -127,9 +100,7 @@ new_results (const CliOptions *options, Shade *s)
   good       = good && (!grey || cli_plane_new (w, h, &s->shading));
   good       = good && (!lit || (cli_colours_new (w, h, &s->tone) && cli_plane_new (w, h, &s->gloss)));
   good       = good && (!(options->occlusion || options->maps) || cli_plane_new (w, h, &s->occlusion));
-  for (int map = 0; options->maps && map < CLI_MAPS; map++)
-    good = good && cli_colours_new (w, h, &s->maps[map]);
-  return good;
+  return good && (!options->maps || cli_maps_new (w, h, &s->maps));
 }
 
 static void
@@ -140,8 +111,7 @@ clear (Shade *s)
 
   for (size_t i = 0; i < G_N_ELEMENTS (all); i++)
     g_free (all[i]);
-  for (int map = 0; map < CLI_MAPS; map++)
-    g_free (s->maps[map].data);
+  cli_maps_clear (&s->maps);
   g_free (s->hints.data);
   cli_layers_clear (&s->layers);
 }
@@ -178,7 +148,7 @@ crop (const Shade *whole, const CeldRect *cell)
   CROP (&s.occlusion, cell, 1);
   CROP (&s.tone, cell, 4);
   for (int map = 0; map < CLI_MAPS; map++)
-    CROP (&s.maps[map], cell, 4);
+    CROP (&s.maps.map[map], cell, 4);
   return s;
 }
 
@@ -195,49 +165,6 @@ make_ink (const CeldSettings *settings, const CeldHost *host, Shade *s)
   if (status == CELD_OK && s->borders.data)
     status = celd_contours_bake (drawing, &s->layers.contours, CELD_FOR_SEGMENTATION, settings->ink, host, drawing);
   return status == CELD_OK && s->borders.data ? celd_ink (drawing, settings->ink, host, &s->borders) : status;
-}
-
-/* Fills the maps: normals as 0.5 + 0.5 n; occlusion; and the luma of the art, which engines use for highlights.  Each
- * has the alpha of the art. */
-static void
-fill_maps (const Shade *s, float *encoded)
-{
-  for (int y = 0; y < s->art.height; y++)
-    {
-      size_t       row = (size_t) y * s->art.stride; /* all have one stride */
-      const float *art = s->art.data + 4 * row, *n = s->normals.data + 3 * row, *open = s->occlusion.data + row;
-      float       *map[CLI_MAPS];
-
-      for (int m = 0; m < CLI_MAPS; m++)
-        map[m] = s->maps[m].data + 4 * row;
-      cli_encode (art, s->art.width, encoded);
-      for (size_t x = 0; x < (size_t) s->art.width; x++)
-        {
-          for (size_t c = 0; c < 3; c++)
-            {
-              map[0][4 * x + c] = 0.5f + 0.5f * n[3 * x + c];
-              map[1][4 * x + c] = open[x];
-              celd_luma (encoded + 4 * x, 1, &map[2][4 * x + c], NULL);
-            }
-          for (int m = 0; m < CLI_MAPS; m++)
-            map[m][4 * x + 3] = art[4 * x + 3];
-        }
-    }
-}
-
-static CeldStatus
-make_maps (const CliOptions *options, const CeldHost *host, Shade *s)
-{
-  static const float blank[CLI_MAPS][3] = { { 0.5f, 0.5f, 1 }, { 1, 1, 1 }, { 0, 0, 0 } };
-  float             *row = g_try_new (float, 4 * (gsize) s->art.width);
-  CeldStatus         status = row ? CELD_OK : CELD_NO_MEMORY;
-
-  if (row)
-    fill_maps (s, row);
-  g_free (row);
-  for (int map = 0; map < CLI_MAPS && status == CELD_OK; map++)
-    status = celd_pad_colours (options->padding, blank[map], host, &s->maps[map]);
-  return status;
 }
 
 static CeldStatus
@@ -258,10 +185,9 @@ shade_cell (const CliOptions *options, const CeldHost *host, Shade *s)
   if (status == CELD_OK && s->occlusion.data)
     status = celd_occlusion (&s->levels, settings, host, &s->occlusion);
   if (status == CELD_OK && options->directx)
-    for (int y = 0; y < s->normals.height; y++)
-      for (int x = 0; x < s->normals.width; x++)
-        s->normals.data[3 * ((size_t) y * s->normals.stride + (size_t) x) + 1] *= -1;
-  return status == CELD_OK && options->maps ? make_maps (options, host, s) : status;
+    cli_normals_down (&s->normals);
+  return status == CELD_OK && options->maps
+           ? cli_maps_make (options, &s->art, &s->normals, &s->occlusion, host, &s->maps) : status;
 }
 
 /* Shades each cell by itself. */
@@ -323,21 +249,6 @@ write_coloured_shading (const CliOptions *options, const Shade *s)
 }
 
 static bool
-write_maps (const CliOptions *options, const Shade *s)
-{
-  bool good = true;
-
-  for (int map = 0; map < CLI_MAPS && good; map++)
-    {
-      char *name = cli_map_name (options->maps, map);
-
-      good = cli_write_map (name, &s->maps[map]);
-      g_free (name);
-    }
-  return good;
-}
-
-static bool
 write_all (const CliOptions *options, Shade *s)
 {
   return (!options->normals || cli_write_normals (options->normals, &s->normals)) &&
@@ -345,7 +256,7 @@ write_all (const CliOptions *options, Shade *s)
          (!s->tone.data || cli_light_write (options, &s->tone, &s->gloss, &s->art)) &&
          (!(options->shading && options->matcap) || write_coloured_shading (options, s)) &&
          (!options->occlusion || cli_write_values (options->occlusion, &s->occlusion)) &&
-         (!options->maps || write_maps (options, s));
+         (!options->maps || cli_maps_write (options->maps, &s->maps));
 }
 
 static int

@@ -81,14 +81,20 @@ write_joined (const CliOptions *options, ViewPair *pair)
          cli_write_colours (options->stereo, &pair->joined);
 }
 
-bool
-cli_views_write (const CliOptions *options, CliScene *s)
+static bool
+is_pair_wanted (const CliOptions *options)
+{
+  return options->left || options->right || options->stereo;
+}
+
+/* Frees the scene if nothing else is made of it, because writing takes memory. */
+static bool
+write_pair (const CliOptions *options, CliScene *s)
 {
   ViewPair pair = { 0 };
-  bool     wanted = options->left || options->right || options->stereo;
-  bool     good = !wanted || (pair_new (s, options->settings.stereo, &pair) && draw_pair (s, pair.view));
+  bool     good = pair_new (s, options->settings.stereo, &pair) && draw_pair (s, pair.view);
 
-  if (!options->quilt && !options->sequence)
+  if (!options->quilt && !options->sequence && !options->wiggle)
     cli_scene_release (s);
   good = good && (!options->left || cli_write_colours (options->left, &pair.view[0])) &&
          (!options->right || cli_write_colours (options->right, &pair.view[1])) &&
@@ -140,6 +146,28 @@ write_quilt (const CliOptions *options, const CliScene *s)
   return good;
 }
 
+bool
+cli_views_wanted (const CliOptions *options)
+{
+  return is_pair_wanted (options) || options->quilt || options->sequence;
+}
+
+char *
+cli_views_stages (const CliOptions *o)
+{
+  int many = (o->quilt ? o->views : 0) + (o->sequence ? o->views : 0) + (o->wiggle ? o->frames : 0);
+
+  return g_strdup_printf ("%s views*%d", is_pair_wanted (o) ? " left right" : "", many);
+}
+
+bool
+cli_views_write (const CliOptions *options, CliScene *s)
+{
+  s->frames = options->views;
+  return (!is_pair_wanted (options) || write_pair (options, s)) && (!options->quilt || write_quilt (options, s)) &&
+         (!options->sequence || cli_scene_write (options->sequence, s, camera, options->views, options));
+}
+
 /* ------------------------------------------------------------------ the command */
 
 /* Prints what strains the eyes. */
@@ -162,24 +190,20 @@ run_stereo (const CliOptions *options)
   CliScene s;
   CliRun   run;
   int      code = CLI_FAILED;
-
-  bool     pair = options->left || options->right || options->stereo;
-  int      many = (options->quilt ? options->views : 0) + (options->sequence ? options->views : 0);
-  char    *stages = g_strdup_printf ("reading labels order depth layers scene%s views*%d", pair ? " left right" : "",
-                                     many);
+  char    *views = cli_views_stages (options);
+  char    *stages = g_strconcat ("reading labels order depth layers scene", views, NULL);
 
   cli_run_begin (&run, options, stages);
   if (cli_scene_new (options, &run, &s))
     {
-      s.frames = options->views;
-      if (cli_views_write (options, &s) && (!options->quilt || write_quilt (options, &s)) &&
-          (!options->sequence || cli_scene_write (options->sequence, &s, camera, options->views, options)))
+      if (cli_views_write (options, &s))
         code = cli_scene_finish (options, "stereo", &s);
       if (code != CLI_FAILED && !options->quiet)
         say_comfort (&s);
     }
   cli_scene_clear (&s);
   cli_run_end (&run);
+  g_free (views);
   g_free (stages);
   return code;
 }

@@ -1,9 +1,9 @@
-/* What popup makes of depth in the same run: the drawing with light or with shadows, its layers, a model, and views for
- * two eyes.
+/* What popup makes of depth in the same run: the drawing with light or with shadows, maps, its layers, a model, and
+ * views.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
-#include "cli.h"
+#include "options.h"
 
 #include <string.h>
 
@@ -68,6 +68,44 @@ write_occlusion (const CliOptions *options, const CeldPlane *levels, CliRun *run
   return good;
 }
 
+/* Normals are copied, since the session keeps its own. */
+static CeldStatus
+make_maps (CeldSession *session, const CliOptions *options, const CeldPlane *levels, const CeldColours *art, CliRun *run,
+           CeldPlane *occlusion, CeldVectors *normals, CliMaps *maps)
+{
+  CeldVectors own;
+  CeldHost    quiet = { NULL, run->host.each, run->host.data };
+  CeldStatus  status = celd_session_normals (session, &run->host, &own, NULL);
+
+  if (status == CELD_OK)
+    status = celd_occlusion (levels, &options->settings, &run->host, occlusion);
+  if (status == CELD_OK && !cli_normals_copy (&own, normals))
+    status = CELD_NO_MEMORY;
+  if (status == CELD_OK && options->directx)
+    cli_normals_down (normals);
+  return status == CELD_OK ? cli_maps_make (options, art, normals, occlusion, &quiet, maps) : status;
+}
+
+static bool
+write_maps (CeldSession *session, const CliOptions *options, const CeldPlane *levels, const CeldColours *art,
+            CliRun *run)
+{
+  CeldPlane   occlusion = { 0 };
+  CeldVectors normals = { 0 };
+  CliMaps     maps = { 0 };
+  bool        good = cli_plane_new (levels->width, levels->height, &occlusion) &&
+                     cli_maps_new (levels->width, levels->height, &maps);
+
+  cli_run_stage (run, "maps");
+  good = good &&
+         cli_run_finish (run, make_maps (session, options, levels, art, run, &occlusion, &normals, &maps)) &&
+         cli_maps_write (options->maps, &maps);
+  g_free (occlusion.data);
+  g_free (normals.data);
+  cli_maps_clear (&maps);
+  return good;
+}
+
 static bool
 write_shadows (const CliOptions *options, const CeldPlane *levels, const CeldColours *art, CliRun *run)
 {
@@ -91,11 +129,12 @@ write_light_and_shadows (CeldSession *session, const CliOptions *options, const 
   bool      shadows = options->enhanced || options->shadow || options->view;
   CeldPlane levels;
 
-  if (!lit && !shadows && !options->occlusion)
+  if (!lit && !shadows && !options->occlusion && !options->maps)
     return true;
   return cli_run_finish (run, celd_session_levels (session, &run->host, &levels, NULL)) &&
          (!lit || write_light (session, options, &levels, art, run)) &&
          (!options->occlusion || write_occlusion (options, &levels, run)) &&
+         (!options->maps || write_maps (session, options, &levels, art, run)) &&
          (!shadows || write_shadows (options, &levels, art, run));
 }
 
@@ -141,6 +180,18 @@ write_relief (CeldSession *session, const CliOptions *options, CeldSettings sett
   return good;
 }
 
+/* Motion alone has to show depth, unless the artist says by how much views differ. */
+static bool
+write_wiggle (const CliOptions *options, CliScene *scene)
+{
+  CeldSettings settings = options->settings;
+
+  if (!cli_setting_given (options, "disparity"))
+    settings.disparity = CLI_WIGGLE_DISPARITY;
+  scene->settings = &settings;
+  return cli_wiggle_write (options, scene);
+}
+
 /* Views need completed layers, whatever those of --layers are. */
 static bool
 write_views (CeldSession *session, const CliOptions *options, CeldSettings settings, const CeldColours *art,
@@ -152,7 +203,8 @@ write_views (CeldSession *session, const CliOptions *options, CeldSettings setti
 
   settings.complete = true;
   good = cli_check (celd_session_set_settings (session, &settings)) && copy_art (art, &copy) &&
-         cli_scene_make (&copy, &scene) && cli_views_write (options, &scene);
+         cli_scene_make (&copy, &scene) && cli_views_write (options, &scene) &&
+         (!options->wiggle || write_wiggle (options, &scene));
   g_free (copy.data);
   scene.session = NULL; /* it is not the scene's */
   cli_scene_clear (&scene);
@@ -172,6 +224,5 @@ cli_uses_write (CeldSession *session, const CliOptions *options, const CeldColou
          write_light_and_shadows (session, options, art, run) &&
          (!options->layers || write_layers (session, options, art, run)) &&
          (!(options->height || options->mesh) || write_relief (session, options, settings, art, run)) &&
-         (!(options->left || options->right || options->stereo) ||
-          write_views (session, options, settings, art, run));
+         (!(cli_views_wanted (options) || options->wiggle) || write_views (session, options, settings, art, run));
 }

@@ -4,12 +4,17 @@
  */
 #include "options.h"
 
-#define DISPARITY 0.05f /* of the width; more than in stereo, since motion alone has to show depth (chosen) */
-
 static CeldCamera
 camera (const CliScene *s, int frame)
 {
   return celd_camera_on_path (s->settings->path, frame, s->frames);
+}
+
+bool
+cli_wiggle_write (const CliOptions *options, CliScene *s)
+{
+  s->frames = options->frames;
+  return cli_scene_write (options->wiggle, s, camera, options->frames, options);
 }
 
 static int
@@ -23,8 +28,7 @@ run_wiggle (const CliOptions *options)
   cli_run_begin (&run, options, stages);
   if (cli_scene_new (options, &run, &s))
     {
-      s.frames = options->frames;
-      if (cli_scene_write (options->wiggle, &s, camera, options->frames, options))
+      if (cli_wiggle_write (options, &s))
         code = cli_scene_finish (options, "wiggle", &s);
     }
   cli_scene_clear (&s);
@@ -36,7 +40,7 @@ run_wiggle (const CliOptions *options)
 static void
 begin (CliOptions *options)
 {
-  options->settings.disparity = DISPARITY;
+  options->settings.disparity = CLI_WIGGLE_DISPARITY;
 }
 
 const CliCommand cli_wiggle_command = {

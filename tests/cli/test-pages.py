@@ -48,6 +48,16 @@ class Pages(Test):
                                        atol=1e-5)
             np.testing.assert_array_equal(self.picture(f'out/{page}-labels.png'), self.picture('labels.png'))
 
+    def test_maps_and_animations(self):
+        """Results of several files, and those whose usual format is not PNG; they are kept like others."""
+        words = ('popup', self.page('a.ora'), '--relations', RELATIONS, '--output-dir', 'out', '--maps', '--wiggle',
+                 '--frames', '2')
+        self.celdepth(*words)
+        self.assertEqual(sorted(self.times()), ['a-maps_n.png', 'a-maps_o.png', 'a-maps_s.png', 'a-wiggle.gif'])
+        self.assertIn('1 page: 0 made, 1 kept', self.celdepth(*words))
+        os.remove(self.path('out/a-maps_o.png'))
+        self.assertIn('1 page: 1 made, 0 kept', self.celdepth(*words))
+
     def test_default(self):
         self.celdepth('popup', self.page('a.ora'), '--output-dir=out', '--relations', RELATIONS)
         self.assertEqual(sorted(self.times()), ['a-depth.png', 'a-shaded.png'])

@@ -3,6 +3,7 @@
 
 SPDX-License-Identifier: LGPL-3.0-or-later
 """
+import os
 import unittest
 
 import numpy as np
@@ -75,6 +76,37 @@ class OneRun(Test):
         for name in 'glb', 'stl':
             with open(self.path(f'page.{name}'), 'rb') as one, open(self.path(f'alone.{name}'), 'rb') as other:
                 self.assertEqual(one.read(), other.read())
+
+    def test_maps(self):
+        """Those of shade, also with green that points down, as in the normals beside them."""
+        self.celdepth('popup', *INPUT, '--levels', 'levels.npy', '--maps', 'up.png', '--normals', 'up.npy')
+        self.celdepth('popup', *INPUT, '--maps', 'down.png', '--normals', 'down.npy', '--directx', '--padding', '0')
+        self.celdepth('shade', 'levels.npy', '--drawing', 'page.png', '--maps', 'shade.png')
+        for letter in 'nos':
+            self.same(f'up_{letter}.png', f'shade_{letter}.png')
+        up, down = (np.load(self.path(f'{name}.npy')) for name in ('up', 'down'))
+        np.testing.assert_array_equal(down, up * (1, -1, 1))
+        self.assertGreater(np.abs(up[..., 1]).max(), 0.5)
+        np.testing.assert_allclose(self.picture('down_n.png')[..., :3] / 255, 0.5 + 0.5 * down, atol=1 / 255)
+
+    def test_many_views(self):
+        """Those of stereo and wiggle; what moves shows twice the depth unless the artist says how much."""
+        self.celdepth('popup', *INPUT, '--views', '3', '--quilt', 'quilt.png', '--sequence', 'views', '--wiggle',
+                      'moving', '--frames', '4', '--left', 'left.png')
+        self.celdepth('stereo', *INPUT, '--views', '3', '--quilt', 'quilt-alone.png', '--sequence', 'views-alone')
+        self.celdepth('wiggle', *INPUT, '--frames', '4', '--output', 'moving-alone')
+        self.celdepth('popup', *INPUT, '--wiggle', 'little', '--frames', '4', '--disparity', '0.02')
+        self.celdepth('wiggle', *INPUT, '--frames', '4', '--disparity', '0.02', '--output', 'little-alone')
+        self.same('quilt.png', 'quilt-alone.png')
+        for folder, number in (('views', 3), ('moving', 4), ('little', 4)):
+            names = sorted(os.listdir(self.path(folder)))
+            self.assertEqual(len(names), number)
+            self.assertEqual(names, sorted(os.listdir(self.path(f'{folder}-alone'))))
+            for name in names:
+                self.same(f'{folder}/{name}', f'{folder}-alone/{name}')
+        self.same('views/' + sorted(os.listdir(self.path('views')))[0], 'left.png')
+        self.assertFalse(np.array_equal(self.picture('moving/' + sorted(os.listdir(self.path('moving')))[1]),
+                                        self.picture('little/' + sorted(os.listdir(self.path('little')))[1])))
 
     def test_light(self):
         """From the upper left: parts are lighter there than at the lower right, and the page is as it was."""
