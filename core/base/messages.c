@@ -212,6 +212,11 @@ celd_problem_text (const CeldProblem *p, const CeldPalette *palette, const CeldR
                                                     "colour, on a layer named Hidden.")),
                 colour, p->x, p->y);
       break;
+    case CELD_PROBLEM_STROKE_FAINT:
+      snprintf (text, size, celd_in (translate, N_ ("The stroke at (%d, %d) is so faint that it was left out. Paint it "
+                                                    "again with a brush that is more opaque, or erase it.")),
+                p->x, p->y);
+      break;
     }
 }
 

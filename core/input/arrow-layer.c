@@ -1,6 +1,7 @@
 /* Layers of arrows: how opaque the pixels of one are, and relations painted as one.
  *
- * The opacity of a layer with transparency is its alpha.  In an opaque layer the commonest colour is taken for paper,
+ * The opacity of a layer with transparency is its alpha, divided by that of the most opaque pixel, because the brush may
+ * have been translucent.  In an opaque layer the commonest colour is taken for paper,
  * and a pixel's opacity is its largest difference from that colour in any channel.
  *
  * A relation is painted as an artist would paint it: a shaft, and a filled head at the farther end, green where it is
@@ -27,11 +28,23 @@ celd_arrow_opacity (const CeldArrowLayer *layer, int x, int y)
   int            contrast = 0;
 
   if (!layer->opaque)
-    return c[3];
+    return c[3] * 255 / layer->strongest;
   for (int i = 0; i < 3; i++)
     if (abs (c[i] - layer->paper[i]) > contrast)
       contrast = abs (c[i] - layer->paper[i]);
   return contrast;
+}
+
+static int
+strongest_alpha (const CeldPaint *paint)
+{
+  int strongest = 0;
+
+  for (int y = 0; y < paint->height; y++)
+    for (int x = 0; x < paint->width; x++)
+      if (CELD_RGBA (paint, x, y)[3] > strongest)
+        strongest = CELD_RGBA (paint, x, y)[3];
+  return strongest >= CELD_VISIBLE_ALPHA ? strongest : 255;
 }
 
 CeldStatus
@@ -41,7 +54,7 @@ celd_arrow_layer_new (const CeldPaint *paint, CeldArrowLayer *layer)
 
   if (!count)
     return CELD_NO_MEMORY;
-  *layer = (CeldArrowLayer) { .paint = paint, .opaque = true };
+  *layer = (CeldArrowLayer) { .paint = paint, .opaque = true, .strongest = 255 };
   for (int y = 0; y < paint->height && layer->opaque; y++)
     for (int x = 0; x < paint->width; x++)
       {
@@ -59,6 +72,8 @@ celd_arrow_layer_new (const CeldPaint *paint, CeldArrowLayer *layer)
           }
       }
   celd_free (count);
+  if (!layer->opaque)
+    layer->strongest = strongest_alpha (paint);
   return CELD_OK;
 }
 

@@ -1,6 +1,6 @@
 /* Painted arrows: which end of a stroke is nearer.
  *
- * Each connected stroke of the layer (alpha at least one half; in a layer without alpha, what differs from the
+ * Each connected stroke of the layer (alpha at least half of the largest; in a layer without alpha, what differs from the
  * commonest colour) is one arrow; where strokes cross, each is followed straight on (arrow-strokes.c).  Strokes of
  * different colours may touch as they like: each colour is read alone (coloured-arrows.c), if the places of its ends
  * are known.  The form of a stroke decides; its colour also says whether registration may tear there (blue).
@@ -51,12 +51,19 @@ components_clear (Components *s)
   celd_free (s->stroke.rings);
 }
 
+/* Of paint. */
+static int
+least_opacity (const CeldArrowLayer *layer, CeldArrowStyle style)
+{
+  return layer->opaque ? CELD_PAPER_CONTRAST : style == CELD_ARROW_FADE ? FADED_OPACITY
+         : style == CELD_ARROW_TAPER ? THIN_OPACITY : LEAST_OPACITY;
+}
+
 static CeldStatus
 find_components (const CeldArrowLayer *layer, CeldArrowStyle style, const CeldHost *host, Components *s)
 {
   const CeldPaint *paint = layer->paint;
-  int              least = layer->opaque ? CELD_PAPER_CONTRAST : style == CELD_ARROW_FADE ? FADED_OPACITY
-                                          : style == CELD_ARROW_TAPER ? THIN_OPACITY : LEAST_OPACITY;
+  int              least = least_opacity (layer, style);
   CeldLabels       mask;
   CeldStatus       status = celd_labels_new (paint->width, paint->height, &mask);
 
@@ -211,6 +218,9 @@ celd_arrows_read (const CeldPaint *arrows, CeldArrowStyle style, const CeldHost 
     status = gather_pixels (&components);
   if (status == CELD_OK)
     status = read_components (&components, &layer, style, &reading, relations, problems);
+  if (status == CELD_OK && !layer.opaque && problems)
+    status = celd_faint_strokes_find (arrows, (least_opacity (&layer, style) * layer.strongest + 254) / 255,
+                                      problems);
   components_clear (&components);
   if (status != CELD_OK)
     {

@@ -1,5 +1,6 @@
 /* Reading what the artist paints: scribbles, virtual contours, arrows.
  *
+ *   faint-strokes.c      strokes that are too faint to be read
  *   scribble-opacity.c   which pixels are opaque enough to be paint
  *   scribble-colours.c   counts the colours of a layer, and cleans them where it was stored with loss
  *   scribble-loss.c      restores thin strokes whose chroma a codec has smeared
@@ -128,6 +129,18 @@ celd_colour_distance (const int *a, const int *b)
 
   return d0 * d0 + d1 * d1 + d2 * d2;
 }
+
+/* faint-strokes.c: appends CELD_PROBLEM_STROKE_FAINT for each stroke of a layer with alpha that has some, but is nowhere
+ * as opaque as `least`, from which on paint is read. */
+CeldStatus celd_faint_strokes_find (const CeldPaint *layer, int least, CeldProblems *problems);
+
+/* The same: is a pixel visible, but neither opaque nor at the rim of opaque paint? */
+bool celd_paint_is_faint (const CeldPaint *layer, int visible, int opaque, int x, int y);
+
+/* Of 255; all chosen. */
+#define CELD_CONNECTED_ALPHA 16 /* fainter paint connects nothing */
+#define CELD_VISIBLE_ALPHA   26 /* less is what an eraser leaves */
+#define CELD_SCRIBBLE_ALPHA  51 /* the strongest pixel of a scribble, at least */
 
 /* scribble-opacity.c: sets kind to 1 where the layer is opaque enough to be paint, else to 0; label is used as work
  * space. */
@@ -283,12 +296,14 @@ typedef struct
   const CeldPaint *paint;    /* borrowed */
   bool             opaque;   /* all alpha is 255: paint is what differs from paper */
   uint8_t          paper[3]; /* the commonest colour of an opaque layer */
+  int              strongest; /* the alpha of the most opaque pixel of others; 255 if it is hardly visible */
 } CeldArrowLayer;
 
-/* Finds out whether a layer is opaque, and its paper.  CELD_NO_MEMORY is the only failure. */
+/* Finds out whether a layer is opaque, its paper, and how opaque its paint is.  CELD_NO_MEMORY is the only failure. */
 CeldStatus celd_arrow_layer_new (const CeldPaint *paint, CeldArrowLayer *layer);
 
-/* Alpha, or the largest difference from paper in any channel: 0 .. 255.  (x,y) must be in the picture. */
+/* Alpha by that of the most opaque paint, or the largest difference from paper in any channel: 0 .. 255.  (x,y) must be in
+ * the picture. */
 int celd_arrow_opacity (const CeldArrowLayer *layer, int x, int y);
 
 /* ------------------------------------------------------------------ stroke-distance.c */

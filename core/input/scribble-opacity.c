@@ -12,9 +12,6 @@
 #include "input/input.h"
 
 #define OPAQUE   128 /* of 255: paint from here on, whatever is beside it; chosen */
-#define LEAST    16  /* of 255: fainter paint connects nothing; chosen */
-#define VISIBLE  51  /* of 255: the strongest pixel of a stroke, at least; less is what an eraser leaves; chosen */
-#define RIM      2   /* pixels from opaque paint to faint paint that belongs to its rim; chosen */
 #define SHARE    3   /* a pixel is paint from one third of the strongest on; chosen */
 
 /* Connected paint: the alpha of its strongest pixel, and has it a faint stroke? */
@@ -30,15 +27,7 @@ alpha_at (const CeldScribbleLayer *r, int x, int y)
 static bool
 is_faint (const CeldScribbleLayer *r, int x, int y)
 {
-  uint8_t alpha = alpha_at (r, x, y);
-
-  if (alpha < VISIBLE || alpha >= OPAQUE)
-    return false;
-  for (int k = 1; k <= RIM; k++)
-    if ((x >= k && alpha_at (r, x - k, y) >= OPAQUE) || (x + k < r->width && alpha_at (r, x + k, y) >= OPAQUE) ||
-        (y >= k && alpha_at (r, x, y - k) >= OPAQUE) || (y + k < r->height && alpha_at (r, x, y + k) >= OPAQUE))
-      return false;
-  return true;
+  return celd_paint_is_faint (r->paint, CELD_SCRIBBLE_ALPHA, OPAQUE, x, y);
 }
 
 /* Marks opaque pixels; is there a faint one? */
@@ -55,7 +44,7 @@ mark_opaque (CeldScribbleLayer *r)
       for (int x = 0; x < r->width; x++)
         kind[x] = rgba[4 * x + 3] >= OPAQUE;
       for (int x = 0; x < r->width && !faint; x++)
-        faint = !kind[x] && rgba[4 * x + 3] >= VISIBLE && is_faint (r, x, y);
+        faint = !kind[x] && rgba[4 * x + 3] >= CELD_SCRIBBLE_ALPHA && is_faint (r, x, y);
     }
   return faint;
 }
@@ -89,7 +78,7 @@ celd_scribble_paint (CeldScribbleLayer *r)
     return CELD_OK;
   for (int y = 0; y < r->height; y++)
     for (int x = 0; x < r->width; x++)
-      CELD_AT (&component, x, y) = alpha_at (r, x, y) >= LEAST;
+      CELD_AT (&component, x, y) = alpha_at (r, x, y) >= CELD_CONNECTED_ALPHA;
   status = celd_components (&component, 0, true, NULL, &component, &list, &n);
   if (status == CELD_OK && !(paint = celd_alloc0 (n + 1, sizeof *paint)))
     status = CELD_NO_MEMORY;

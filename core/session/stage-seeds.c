@@ -9,6 +9,7 @@
  */
 #include "base/base.h"
 #include "image/image.h"
+#include "input/input.h"
 #include "session/session.h"
 
 #include <string.h>
@@ -211,6 +212,7 @@ celd_make_scribbles (CeldSession *s, const CeldHost *host)
   CeldLabels   labels = { 0 };
   CeldSeedRows seeds = { 0 };
   CeldPalette  palette = { 0 };
+  CeldProblems problems = { 0 };
   CeldStatus   status;
 
   if (s->scribbles.data)
@@ -220,6 +222,8 @@ celd_make_scribbles (CeldSession *s, const CeldHost *host)
         status = celd_scribbles_read (&s->scribbles, &s->settings, host, &labels, &palette);
       if (status == CELD_OK)
         status = celd_seed_rows_read (&labels, &seeds);
+      if (status == CELD_OK)
+        status = celd_faint_strokes_find (&s->scribbles, CELD_SCRIBBLE_ALPHA, &problems);
     }
   else
     status = celd_seed_rows_new (w, h, &seeds);
@@ -227,10 +231,14 @@ celd_make_scribbles (CeldSession *s, const CeldHost *host)
   if (status != CELD_OK)
     {
       celd_palette_clear (&palette);
+      celd_seed_rows_clear (&seeds);
+      celd_problems_clear (&problems);
       return status;
     }
   celd_seed_rows_clear (&s->layer_seeds);
   celd_palette_clear (&s->layer_palette);
+  celd_problems_clear (&s->problems[STAGE_SCRIBBLES]);
+  s->problems[STAGE_SCRIBBLES] = problems;
   s->layer_seeds   = seeds;
   s->layer_palette = palette;
   return CELD_OK;

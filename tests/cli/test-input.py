@@ -44,6 +44,19 @@ class Layers(Test):
         self.popup('--relations', RELATIONS, '--depth', 'b.npy')
         np.testing.assert_allclose(np.load(self.path('a.npy')), np.load(self.path('b.npy')), atol=1e-5)
 
+    def test_faint_strokes(self):
+        """A scribble that can be seen and not read is told, with its place; the others are read as without it."""
+        strokes = np.array(scribbles())
+        strokes[28:33, 10:20] = (0, 120, 250, 38)
+        Image.fromarray(strokes).save(self.path('faint.png'))
+        text = self.celdepth('segment', 'drawing.png', '--scribbles', 'faint.png', '--labels', 'again.npy', '--report',
+                             'report.json')
+        np.testing.assert_array_equal(np.load(self.path('labels.npy')), np.load(self.path('again.npy')))
+        with open(self.path('report.json')) as f:
+            problem, = json.load(f)['problems']
+        self.assertEqual((problem['kind'], problem['place']), ('stroke-faint', [10, 28]))
+        self.assertIn(problem['text'], text)
+
     def test_names_in_other_languages(self):
         """Layers are known by the names that editors' plug-ins know, as PSD files have them and as OpenRaster has."""
         for names in (('Zeichnung', 'KRITZELEIEN'), ('Kresba', 'Čmáranice'), ('drawing.png', 'Tahy')):
