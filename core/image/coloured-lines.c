@@ -9,12 +9,13 @@
  *    colour of lines if most have one.
  * 4. Strength: the contrast, divided by that of the core of the line.
  * 5. Where lines meet, and where strokes are thicker than most, they are wider than the window.  There, what has the
- *    colour of lines (line-tones.c) and fits into the widest window is a line as well (thick-lines.c).
+ *    colour of lines (line-tones.c) and fits into the widest window is a line as well (thick-lines.c).  If most lines
+ *    have one colour, the distance from it finds them between dark fills, too.
  * 6. Where two fills meet without a line, one is drawn (fill-edges.c).
  * Large areas in the colour of lines remain fills, with their narrow parts (solid-areas.c): an artist can scribble on
  * them.  Sprites have lines that need no windows (sprite-lines.c).
  *
- * Cost: O(pixels), whatever the width of lines; 14 bytes a pixel.
+ * Cost: O(pixels), whatever the width of lines; 15 bytes a pixel.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -38,6 +39,8 @@ typedef struct
   int             widest;      /* radius of the widest window for thick strokes among thinner lines */
   int             broadest;    /* radius of the window for lines that are all broad */
   CeldLineTones   tones;
+  bool            one_tone;    /* have most lines one colour, tone? */
+  uint8_t         tone[3];
 } Lines;
 
 /* ------------------------------------------------------------------ work space */
@@ -228,11 +231,10 @@ count_tones (Lines *l, int faintest)
 static void
 measure_distance_from_lines (Lines *l, int faintest)
 {
-  uint8_t tone[3];
-
   count_tones (l, faintest);
-  if (celd_main_line_tone (&l->tones, tone))
-    celd_tone_distance (l->channel, tone, pixels (l), l->level.data);
+  l->one_tone = celd_main_line_tone (&l->tones, l->tone);
+  if (l->one_tone)
+    celd_tone_distance (l->channel, l->tone, pixels (l), l->level.data);
   memset (&l->tones, 0, sizeof l->tones);
 }
 
@@ -329,6 +331,24 @@ write_strengths (const uint8_t *restrict strength, int n, float *restrict luma)
     luma[x] = 1 - strength[x] / 255.0f;
 }
 
+/* Sets l->contrast to where thick strokes are, and what is as wide where lines meet. */
+static CeldStatus
+find_thick_lines (Lines *l, int radius, int faintest, const CeldHost *host)
+{
+  CeldMask   distance = { 0 };
+  CeldStatus status = !l->one_tone || new_mask (l->closed.width, l->closed.height, &distance) ? CELD_OK
+                                                                                            : CELD_NO_MEMORY;
+
+  if (status == CELD_OK && l->one_tone)
+    celd_tone_distance (l->channel, l->tone, pixels (l), distance.data);
+  if (status == CELD_OK)
+    status = celd_thick_lines (l->channel, l->one_tone ? &distance : NULL,
+                               radius > l->widest / 2 ? 2 * radius : l->widest, faintest, host, l->work, &l->closed,
+                               &l->contrast);
+  celd_free (distance.data);
+  return status;
+}
+
 /* Writes thick strokes: n pixels from (x,y) on. */
 static void
 write_thick (const Lines *l, int x, int y, int n, float *luma)
@@ -382,8 +402,7 @@ find_lines (Lines *l, CeldDrawing *drawing)
   celd_line_tones_blur (&l->tones);
   raise_edges (l);
   celd_line_strengths (l->contrast.data, faintest, pixels (l), l->level.data);
-  status = celd_thick_lines (l->channel, radius > l->widest / 2 ? 2 * radius : l->widest, faintest, &last, l->work,
-                             &l->closed, &l->contrast);
+  status = find_thick_lines (l, radius, faintest, &last);
   if (status == CELD_OK)
     {
       celd_leave_solid_areas (l->channel, &l->tones, &l->level, &l->contrast);

@@ -250,11 +250,12 @@ bool celd_is_line_tone (const CeldLineTones *tones, const CeldMask channel[3], s
 bool celd_main_line_tone (const CeldLineTones *tones, uint8_t tone[3]);
 void celd_tone_distance (const CeldMask channel[3], const uint8_t tone[3], size_t n, uint8_t *distance);
 
-/* thick-lines.c: sets `thick` to 1 where some channel has at least half of the contrast of black against its closing by
- * `radius`, and none is lighter than its opening, by a contrast of `faintest`, 1 .. 254; else to 0.  `work` is for this
- * radius, `spare` is overwritten; all have one size. */
-CeldStatus celd_thick_lines (const CeldMask channel[3], int radius, int faintest, const CeldHost *host, void *work,
-                             CeldMask *spare, CeldMask *thick);
+/* thick-lines.c: sets `thick` to 1 where some channel, or the distance from the colour of lines (NULL: they have
+ * several), has at least half of the contrast of black against its closing by `radius`, and no channel is lighter than its
+ * opening, by a contrast of `faintest`, 1 .. 254; else to 0.  `work` is for this radius, `spare` is overwritten; all have
+ * one size. */
+CeldStatus celd_thick_lines (const CeldMask channel[3], const CeldMask *distance, int radius, int faintest,
+                             const CeldHost *host, void *work, CeldMask *spare, CeldMask *thick);
 
 /* solid-areas.c: of `thick`, which is 1 in thick strokes and else 0, sets what has not the tone of lines to 0, and what
  * hangs on areas in its colour that are no lines.  `strength` is that of thin lines. */

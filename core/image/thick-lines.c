@@ -1,5 +1,6 @@
 /* Thick strokes of a coloured drawing: what is much darker than what lies on both sides of it, within a wide window,
- * and not lighter than that: then it is a fill between lines.
+ * and not lighter than that: then it is a fill between lines.  Between two fills each channel may be dark in one of them;
+ * the distance from the colour of lines, if they have one, is not.
  *
  * Of each channel, each pixel is compared with the closing and the opening of squares of 2 x 2 pixels: for a wide
  * window they are as good as those of pixels, at a quarter of the cost.  For the closing a square is as light as its
@@ -129,9 +130,19 @@ compare (const CeldMask *value, const Comparison *comparison, int radius, void *
     }
 }
 
+/* Keeps what is much darker, and no fill between lines; what has the colour of lines is none, although dark fills may be
+ * darker than that in some channel. */
+static void
+keep_thick (const CeldMask *distance, CeldMask *thick)
+{
+  for (size_t i = 0; i < (size_t) thick->width * (size_t) thick->height; i++)
+    thick->data[i] = thick->data[i] == MUCH_DARKER ||
+                     (thick->data[i] && thick->data[i] != BETWEEN_LINES && distance && !distance->data[i]);
+}
+
 CeldStatus
-celd_thick_lines (const CeldMask channel[3], int radius, int faintest, const CeldHost *host, void *work,
-                  CeldMask *spare, CeldMask *thick)
+celd_thick_lines (const CeldMask channel[3], const CeldMask *distance, int radius, int faintest, const CeldHost *host,
+                  void *work, CeldMask *spare, CeldMask *thick)
 {
   int        width = (thick->width + 1) / 2, height = (thick->height + 1) / 2;
   CeldMask   half = { width, height, (size_t) width, spare->data };
@@ -145,7 +156,8 @@ celd_thick_lines (const CeldMask channel[3], int radius, int faintest, const Cel
       compare (&channel[c], &opening, radius, work, &half, thick);
       status = celd_progress (host, (c + 1) / 3.0);
     }
-  for (size_t i = 0; i < (size_t) thick->width * (size_t) thick->height; i++)
-    thick->data[i] = thick->data[i] == MUCH_DARKER;
+  if (distance)
+    compare (distance, &closing, radius, work, &half, thick);
+  keep_thick (distance, thick);
   return status;
 }

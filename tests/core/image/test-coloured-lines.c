@@ -73,6 +73,13 @@ draw (Tone page, Tone left, Tone right, Tone line)
                         line_at (x, y)));
 }
 
+/* The distance from the line through two points. */
+static float
+from_line (float x, float y, float x0, float y0, float x1, float y1)
+{
+  return fabsf ((x - x0) * (y1 - y0) - (y - y0) * (x1 - x0)) / hypotf (x1 - x0, y1 - y0);
+}
+
 /* Sets luma_of as a host does. */
 static CeldStatus
 find (CeldInkMode mode, const CeldHost *host)
@@ -248,6 +255,38 @@ solid_areas_are_closed_and_whole (void)
   CHECK (label[5 * SIDE + 100] && !label[100 * SIDE + 125] && !label[100 * SIDE + 50] && !label[175 * SIDE + 40]);
   for (int y = 25; y < 100; y++)
     CHECK (luma_of[y * SIDE + 125] >= 0.95f && !label[y * SIDE + 125]);
+}
+
+/* How far a place is from the nearest of three broad lines that cross at the middle. */
+static float
+from_crossing (float x, float y)
+{
+  return fminf (from_line (x, y, 100, 0, 100, 200), fminf (from_line (x, y, 0, 130, 200, 70),
+                                                           from_line (x, y, 0, 80, 200, 120)));
+}
+
+/* Where broad lines cross they are wider than the windows that find them, and of the dark fills beside them each is as
+ * dark as lines in some channel, or darker. */
+static void
+dark_fills_hide_no_crossing (void)
+{
+  static const Tone left = { 0.67f, 0.21f, 0.18f }, right = { 0.19f, 0.14f, 0.65f };
+  int               paper_in_line = 0, ink_beside = 0;
+
+  for (int y = 0; y < SIDE; y++)
+    for (int x = 0; x < SIDE; x++)
+      put (x, y, mixed (x < 100 ? left : right, brown,
+                        fminf (fmaxf (6.5f - from_crossing ((float) x + 0.5f, (float) y + 0.5f), 0), 1)));
+  CHECK (find (CELD_INK_AUTO, NULL) == CELD_OK);
+  for (int y = 0; y < SIDE; y++)
+    for (int x = 0; x < SIDE; x++)
+      {
+        float away = from_crossing ((float) x + 0.5f, (float) y + 0.5f);
+
+        paper_in_line += away < 5 && luma_of[y * SIDE + x] > 0.5f;
+        ink_beside += away > 8 && luma_of[y * SIDE + x] < 0.5f;
+      }
+  CHECK (!paper_in_line && !ink_beside);
 }
 
 /* The tips of a diamond fit into the window by which lines are found, as there is a wide line too; a bar nearly in the
@@ -539,6 +578,7 @@ main (void)
   RUN (lines_may_be_lighter);
   RUN (thick_strokes_are_lines_and_areas_are_not);
   RUN (solid_areas_are_closed_and_whole);
+  RUN (dark_fills_hide_no_crossing);
   RUN (narrow_fills_are_no_lines);
   RUN (wedges_have_no_cross_lines);
   RUN (pale_lines_stay_between_dark_ones);
