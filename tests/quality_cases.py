@@ -4,14 +4,17 @@ SPDX-License-Identifier: LGPL-3.0-or-later
 """
 import os
 
+from brought import BROUGHT
+
 VARIANTS = ['gappy', 'wide', 'crop', 'pencil']
-MADE = ['sloppy', 'soft', 'pixel'] # of the clean drawings, when they are asked for
+MADE = ['sloppy', 'soft', 'pixel', *BROUGHT] # of the clean drawings, when they are asked for
 KINDS = ['clean', *VARIANTS, *MADE]
 
 # A few of every kind that are quickly made, for `tests/run` and `tests/same --quick`.
 QUICK = ['bee', 'campfire', 'folders', 'monkey', 'people', 'bee-gappy', 'monkey-wide', 'house-crop',
          'caterpillar-pencil', 'armadillo-sloppy', 'frog-sloppy', 'people-sloppy', 'bee-soft',
-         'people-soft', 'bee-pixel', 'house-pixel', 'lemonade-pixel', 'palette-pixel']
+         'people-soft', 'bee-pixel', 'house-pixel', 'lemonade-pixel', 'palette-pixel', 'monkey-coloured', 'fly-tinted',
+         'folders-pastel', 'bee-photo', 'campfire-scan', 'people-chalk']
 
 
 def cases_in(folder, kinds):

@@ -10,7 +10,8 @@
 #define TONES        CELD_LINE_TONES
 #define TONE_WIDTH   (256 / TONES)
 #define LEAST_COMMON 100 /* a colour is that of lines if one core in so many has it; chosen */
-#define LEAST_MAIN   2   /* a colour is that of lines in general if one core in so many has it; chosen */
+#define LEAST_MAIN   0.9 /* of all cores have a colour that is that of lines in general: in drawings with lines of one
+                          * colour 0.98 have it, in others at most 0.81 (measured on 96 drawings) */
 
 static size_t
 tone_of (const CeldMask channel[3], size_t pixel)
@@ -53,7 +54,7 @@ celd_main_line_tone (const CeldLineTones *tones, uint8_t tone[3])
     }
   for (size_t c = 0; c < 3 && near; c++)
     tone[c] = (uint8_t) (sum[c] / near);
-  return near && LEAST_MAIN * near >= (size_t) tones->cores;
+  return near && (double) near >= LEAST_MAIN * tones->cores;
 }
 
 CELD_CLONES static void

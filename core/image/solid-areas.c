@@ -13,7 +13,7 @@
 
 #define LINE_FROM 128 /* of 255: the least strength of a thin line, from which on it is ink */
 #define ALIKE     8   /* of 255: how far channels of one colour differ; chosen */
-#define DEEP      4   /* pixels, which an area has in a row; chosen */
+#define DEEP      4   /* pixels of the side of a square that an area has at least; chosen */
 
 enum { NONE, STROKE, AREA }; /* what a pixel of `thick` is */
 
@@ -31,20 +31,27 @@ is_inside (const Strokes *s, int x, int y)
   return x >= 0 && y >= 0 && x < s->thick->width && y < s->thick->height;
 }
 
-/* Whether an area begins next to a pixel of a thick stroke, in direction dx,dy: several pixels that are of no line and
- * have its colour. */
+/* Is (u,v) of no line, with the colour that (x,y) has? */
+static bool
+is_alike (const Strokes *s, int x, int y, int u, int v)
+{
+  bool alike = is_inside (s, u, v) && !CELD_AT (s->thick, u, v) && CELD_AT (s->strength, u, v) < LINE_FROM;
+
+  for (int c = 0; c < 3 && alike; c++)
+    alike = abs (CELD_AT (&s->channel[c], x, y) - CELD_AT (&s->channel[c], u, v)) <= ALIKE;
+  return alike;
+}
+
+/* Whether an area begins next to a pixel of a thick stroke, in direction dx,dy: a square of pixels that are of no line and
+ * have its colour.  A row of them may be antialiased pixels along an edge. */
 static bool
 is_area (const Strokes *s, int x, int y, int dx, int dy)
 {
-  bool area = true;
-
-  for (int i = 1, u = x + dx, v = y + dy; i <= DEEP && area; i++, u += dx, v += dy)
-    {
-      area = is_inside (s, u, v) && !CELD_AT (s->thick, u, v) && CELD_AT (s->strength, u, v) < LINE_FROM;
-      for (int c = 0; c < 3 && area; c++)
-        area = abs (CELD_AT (&s->channel[c], x, y) - CELD_AT (&s->channel[c], u, v)) <= ALIKE;
-    }
-  return area;
+  for (int i = 1; i <= DEEP; i++)
+    for (int k = 1; k <= DEEP; k++)
+      if (!is_alike (s, x, y, x + (dx ? dx * i : i - DEEP / 2), y + (dy ? dy * k : k - DEEP / 2)))
+        return false;
+  return true;
 }
 
 /* Takes pixels out of thick strokes that have not the tone of lines. */

@@ -289,6 +289,60 @@ dark_fills_hide_no_crossing (void)
   CHECK (!paper_in_line && !ink_beside);
 }
 
+/* A ring 16 pixels wide among thin lines: antialiased pixels along its slanting edges are no area of its colour. */
+static void
+slanting_edges_are_no_areas (void)
+{
+  static const Tone red = { 0.725f, 0.145f, 0.345f };
+  int               paper_in_line = 0;
+
+  for (float radius = 50; radius < 51; radius += 0.0625f)
+    {
+      for (int y = 0; y < SIDE; y++)
+        for (int x = 0; x < SIDE; x++)
+          {
+            float r = hypotf ((float) x - 69.5f, (float) y - 99.5f), off = fabsf (r - radius) - 8;
+
+            if (x < 140)
+              put (x, y, mixed (r < radius ? red : white, brown, fminf (fmaxf (0.5f - off, 0), 1)));
+            else
+              put (x, y, (x - 140) % 12 < 2 ? brown : white);
+          }
+      CHECK (find (CELD_INK_AUTO, NULL) == CELD_OK);
+      for (int y = 0; y < SIDE; y++)
+        for (int x = 0; x < 130; x++)
+          paper_in_line += fabsf (hypotf ((float) x - 69.5f, (float) y - 99.5f) - radius) < 6 &&
+                           luma_of[y * SIDE + x] > 0.5f;
+    }
+  CHECK (!paper_in_line);
+}
+
+/* Most lines are grey, and one is black on white: its antialiased edges are grey, too, but its middle is no fill between
+ * these. */
+static void
+lines_have_several_colours (void)
+{
+  static const Tone grey = { 0.5f, 0.5f, 0.5f }, black = { 0.02f, 0.02f, 0.02f };
+  int               paper_in_line = 0;
+
+  for (int y = 0; y < SIDE; y++)
+    for (int x = 0; x < SIDE; x++)
+      {
+        float off = from_line ((float) x + 0.5f, (float) y + 0.5f, 155, 0, 125, 200);
+
+        if (x < 100)
+          put (x, y, x % 30 < 6 ? grey : yellow);
+        else
+          put (x, y, mixed (white, black, fminf (fmaxf (3.5f - off, 0), 1)));
+      }
+  CHECK (find (CELD_INK_AUTO, NULL) == CELD_OK);
+  for (int y = 10; y < SIDE - 10; y++)
+    for (int x = 110; x < SIDE; x++)
+      paper_in_line += from_line ((float) x + 0.5f, (float) y + 0.5f, 155, 0, 125, 200) < 2 &&
+                       luma_of[y * SIDE + x] > 0.5f;
+  CHECK (!paper_in_line);
+}
+
 /* The tips of a diamond fit into the window by which lines are found, as there is a wide line too; a bar nearly in the
  * colour of lines fits into that for thick strokes. */
 static void
@@ -579,6 +633,8 @@ main (void)
   RUN (thick_strokes_are_lines_and_areas_are_not);
   RUN (solid_areas_are_closed_and_whole);
   RUN (dark_fills_hide_no_crossing);
+  RUN (slanting_edges_are_no_areas);
+  RUN (lines_have_several_colours);
   RUN (narrow_fills_are_no_lines);
   RUN (wedges_have_no_cross_lines);
   RUN (pale_lines_stay_between_dark_ones);
