@@ -56,7 +56,7 @@ def brought_case(folder, kind):
     """The drawing of the case in a folder, as a picture."""
     case = Case(folder)
     cover = 1 - np.array(Image.open(os.path.join(folder, 'drawing.png')).convert('L')) / 255
-    rng = np.random.default_rng(zlib.crc32(f'{os.path.basename(folder)}-{kind}'.encode()))
+    rng = np.random.default_rng(zlib.crc32(f'{os.path.basename(folder)}-{kind}-2'.encode()))
     if kind in ('coloured', 'tinted', 'pastel'):
         colour, fill = fills_of(case, rng, *(((0.12, 0.3), (0.88, 1)) if kind == 'pastel' else ((0.4, 0.8), (0.5, 0.9))))
         line = 0.4 * colour[case.owner] if kind == 'tinted' else np.array([0.24, 0.12, 0.08])

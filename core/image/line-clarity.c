@@ -13,6 +13,8 @@
  * stays in the closed picture: where lines explain a picture, little does, in those 6 drawings 0.05 at most.  Both
  * refuse 70 of the photographs.  Otherwise a large share is only a reason to warn.
  *
+ * Strong fills beside thin lines may look alike, in grey, so a picture of flat fills is a drawing in any case.
+ *
  * Grain hides lines, so a picture without clear ones is also smoothed.  A picture without an edge is shade alone, and
  * refused at once.
  *
@@ -38,6 +40,9 @@
 #define MANY_PARTIAL   0.46 /* the share of partial values in what may be no drawing (measured, see above) */
 #define LEAST_CLASSES  0.72 /* Otsu's measure of drawings with as many (measured) */
 #define LEAST_RADIUS   4    /* pixels: grain stays in narrower closings, too; measured */
+#define LEAST_FLAT     0.45 /* of pixels are flat in coloured drawings (measured: 0.5 to 0.95; photographs: up to 0.35) */
+#define MOST_FLAT      0.9  /* of these have ... */
+#define FILL_VALUES    40   /* ... so many values at most (measured: up to 26) */
 #define MUCH_STAYS     0.07 /* the share of variation that stays in photographs with as many (measured) */
 
 typedef struct
@@ -272,6 +277,63 @@ smooth (CeldMask *picture, CeldMask *spare)
                    &CELD_AT (spare, 0, y + 1 < height ? y + 1 : y), width, &CELD_AT (picture, 0, y));
 }
 
+static int
+commonest (const size_t histogram[256])
+{
+  int most = 0;
+
+  for (int i = 1; i < 256; i++)
+    most = histogram[i] > histogram[most] ? i : most;
+  return most;
+}
+
+/* How many of the commonest values together have this share of all; empties their counts. */
+static int
+values_of_most (size_t histogram[256], double share)
+{
+  size_t all = 0, taken = 0;
+  int    values = 0;
+
+  for (int i = 0; i < 256; i++)
+    all += histogram[i];
+  for (; (double) taken < share * (double) all; values++)
+    {
+      int next = commonest (histogram);
+
+      taken += histogram[next];
+      histogram[next] = 0;
+    }
+  return values;
+}
+
+/* Does the picture consist of flat fills, as a coloured drawing and no photograph?  Of the pixels that are not of the
+ * commonest value, which is the paper, most equal those beside and below them, and these have few values. */
+static bool
+has_flat_fills (const CeldMask *picture)
+{
+  size_t all[256] = { 0 }, of[256] = { 0 }, pixels = 0, flat = 0;
+  int    paper;
+
+  for (size_t i = 0; i < (size_t) picture->width * (size_t) picture->height; i++)
+    all[picture->data[i]]++;
+  paper = commonest (all);
+  for (int y = 0; y + 1 < picture->height; y++)
+    for (int x = 0; x + 1 < picture->width; x++)
+      {
+        const uint8_t *v = &CELD_AT (picture, x, y), *below = v + picture->stride;
+
+        if (*v == paper)
+          continue;
+        pixels++;
+        if (v[1] == *v && below[0] == *v && below[1] == *v)
+          {
+            of[*v]++;
+            flat++;
+          }
+      }
+  return (double) flat >= LEAST_FLAT * (double) pixels && values_of_most (of, MOST_FLAT) <= FILL_VALUES;
+}
+
 static CeldStatus
 measure_picture (ClarityWork *w)
 {
@@ -311,6 +373,11 @@ celd_line_clarity (const CeldDrawing *drawing, const CeldHost *host, CeldLineCla
           status = measure_picture (&w);
           if (!is_clear (&w))
             found = is_without_lines (&w) ? CELD_LINES_NONE : CELD_LINES_UNSURE;
+          if (found != CELD_LINES_CLEAR)
+            {
+              take_picture (drawing, &w.picture); /* it may have been smoothed */
+              found = has_flat_fills (&w.picture) ? CELD_LINES_CLEAR : found;
+            }
         }
     }
   end_work (&w);
