@@ -11,10 +11,11 @@ MADE = ['sloppy', 'soft', 'pixel', *BROUGHT] # of the clean drawings, when they 
 KINDS = ['clean', *VARIANTS, *MADE]
 
 # A few of every kind that are quickly made, for `tests/run` and `tests/same --quick`.
-QUICK = ['bee', 'campfire', 'folders', 'monkey', 'people', 'bee-gappy', 'monkey-wide', 'bee-crop', 'caterpillar-
-         crop', 'house-crop', 'caterpillar-pencil', 'armadillo-sloppy', 'frog-sloppy', 'people-sloppy', 'bee-
-         soft', 'people-soft', 'bee-pixel', 'house-pixel', 'lemonade-pixel', 'palette-pixel', 'house-coloured',
-         'fly-tinted', 'folders-pastel', 'bee-photo', 'campfire-scan', 'people-chalk']
+QUICK = ['bee', 'campfire', 'folders', 'monkey', 'people', 'bee-gappy', 'monkey-wide', 'bee-crop',
+         'caterpillar-crop', 'house-crop', 'caterpillar-pencil', 'armadillo-sloppy', 'frog-sloppy',
+         'people-sloppy', 'bee-soft', 'people-soft', 'bee-pixel', 'house-pixel', 'lemonade-pixel',
+         'palette-pixel', 'house-coloured', 'fly-tinted', 'folders-pastel', 'bee-photo', 'campfire-scan',
+         'people-chalk']
 
 
 def cases_in(folder, kinds):
