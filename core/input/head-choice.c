@@ -251,32 +251,49 @@ keep_least (const CeldHeadChoice *s, double cost, double *least, bool *to)
   save (s, to);
 }
 
-/* The cost of the best choice in which a line has other heads than in `best`, or one of its passes is the other way; it
- * is saved in `other`. */
+/* The cost of the best choice in which a line has other heads than in `best`; saved in `other` if it costs less than
+ * `least`. */
 static double
-cost_of_others (CeldHeadChoice *s, size_t k, const bool *best, bool *other)
+cost_of_other_heads (CeldHeadChoice *s, size_t k, const bool *best, double *least, bool *other)
 {
-  double least = INFINITY;
+  double lowest = INFINITY;
 
   for (unsigned heads = 0; heads < 4; heads++)
     {
+      double cost;
+
       restore (s, best);
       if (heads_of (s, k) == heads)
         continue;
       set_heads (s, k, heads);
       try_round (s, k);
-      keep_least (s, descend (s, k, HOLD_NONE), &least, other);
+      cost   = descend (s, k, HOLD_NONE);
+      lowest = fmin (lowest, cost);
+      keep_least (s, cost, least, other);
     }
+  return lowest;
+}
+
+/* The same if one of its passes is the other way. */
+static double
+cost_of_other_passes (CeldHeadChoice *s, size_t k, const bool *best, double *least, bool *other)
+{
+  double lowest = INFINITY;
+
   for (size_t i = 0; i < s->n_passes; i++)
     if (s->pass[i].end[0] / 2 == k || s->pass[i].end[1] / 2 == k)
       {
+        double cost;
+
         restore (s, best);
         s->pass[i].on = !s->pass[i].on;
         try_round (s, s->pass[i].end[0] / 2);
         try_round (s, s->pass[i].end[1] / 2);
-        keep_least (s, descend (s, HOLD_NONE, i), &least, other);
+        cost   = descend (s, HOLD_NONE, i);
+        lowest = fmin (lowest, cost);
+        keep_least (s, cost, least, other);
       }
-  return least;
+  return lowest;
 }
 
 /* Finds the best choice, and the margins of all lines; `saved` is memory for two choices. */
@@ -293,9 +310,11 @@ find_best (CeldHeadChoice *s, bool *saved)
   save (s, best);
   for (size_t k = 0; k < n;)
     {
-      double others = cost_of_others (s, k, best, other);
+      double others = INFINITY;
 
-      s->margin[k++] = others - least;
+      s->margin[k]      = cost_of_other_heads (s, k, best, &others, other) - least;
+      s->pass_margin[k] = cost_of_other_passes (s, k, best, &others, other) - least;
+      k++;
       if (others < least - SMALLER && restarts++ < MOST_RESTARTS)
         {
           memcpy (best, other, size);

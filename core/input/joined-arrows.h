@@ -296,7 +296,8 @@ CeldStatus celd_node_marks_find (const CeldJoinedLines *lines, size_t node, cons
 typedef struct { size_t end[2]; double cost; bool on; } CeldArrowPass;
 
 /* Which ends have heads or dots, and where arrows pass.  Found are, of each line: the first line of its arrow; of that
- * line the heads of the arrow; and what the best other choice for the line costs more. */
+ * line the heads of the arrow; and what the best choice costs more in which the line has other heads (margin), and in
+ * which one pass at its ends is on that is off, or off that is on (pass_margin). */
 typedef struct
 {
   const CeldJoinedLines *lines;
@@ -308,7 +309,7 @@ typedef struct
   bool                  *short_line; /* of each line: may it be the barb of a head? */
   size_t                *chain;
   int                   *heads;
-  double                *margin;
+  double                *margin, *pass_margin;
   /* Of the search: the passes that are on, n_on of them; the lines that are tried now, and in the next round. */
   size_t                *on, n_on;
   bool                  *tried, *tried_next;

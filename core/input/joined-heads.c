@@ -16,10 +16,14 @@
 #define FREE_TURN      0.35 /* ... and by which it may turn for a cost of 1; ... */
 #define MOST_BEND      1.3  /* ... the same at the corner of a line */
 #define FREE_BEND      0.7
-#define CLEAR_MARGIN   1    /* cost by which an arrow must be better than others in its place */
-#define MOST_REST      1.5  /* cost of a node where all is clear */
-#define MOST_OFF       1.5  /* widths by which a line may pass the place where it ends */
-#define TIP_RADIUS     0.9  /* widths from the tip of a head to where there is no paint, at most */
+#define CLEAR_HEAD     0.5  /* cost by which other heads of the lines of an arrow must be worse, ... */
+#define CLEAR_DOT      1    /* ... or dots, ... */
+#define CLEAR_PASS     1    /* ... and any pass that is changed */
+#define MOST_REST      1.5  /* cost of a node where all is clear, ... */
+#define MORE_REST      1    /* ... and for each head more than one: the paint of heads on each other fits none exactly */
+#define MOST_OFF       1.5  /* widths by which a line may pass the place where it ends, ... */
+#define MEAN_OFF       0.85 /* ... and all lines of a node, as the root of the mean square: two nodes may look like one */
+#define TIP_RADIUS     1.3  /* widths from the tip of a head to where there is no paint, at most */
 #define BARE_MARGIN    0.75 /* cost by which a free end must be better without a head */
 #define SHORTEST_ARROW 6    /* widths that the line of an arrow is long */
 #define OTHERS         1.5  /* widths from a free end to paint of other colours that may hide a head */
@@ -125,24 +129,29 @@ is_long_enough (const CeldJoinedLines *lines, size_t k)
   return celd_stroke_line_length (&lines->graph.line[k]) >= least_length (lines, k) * lines->graph.width;
 }
 
-/* Are the lines of an arrow clearly better than other choices?  A line with two heads, or one that is too short for its
- * head, is not one arrow, and what is next to it may be part of another. */
+/* Do lines end at a node that are not one arrow, with two heads, or too short for their head?  What is next to such a
+ * line may be part of another arrow. */
+static bool
+is_near_doubt (const CeldHeadChoice *s, int node)
+{
+  for (size_t i = 0; i < 2 * s->lines->graph.n_lines; i++)
+    if (celd_joined_node (s->lines, i) == node &&
+        (s->heads[s->chain[i / 2]] > 1 || (s->heads[s->chain[i / 2]] && !is_long_enough (s->lines, i / 2))))
+      return true;
+  return false;
+}
+
+/* Are the lines of an arrow clearly better than other choices? */
 static bool
 is_clear (const CeldHeadChoice *s, size_t chain)
 {
-  size_t n = 2 * s->lines->graph.n_lines;
+  double least = s->lines->style == CELD_ARROW_DOT ? CLEAR_DOT : CLEAR_HEAD;
 
-  for (size_t a = 0; a < n; a++)
-    {
-      if (s->chain[a / 2] != chain)
-        continue;
-      if (s->margin[a / 2] < CLEAR_MARGIN)
-        return false;
-      for (size_t b = 0; b < n; b++)
-        if (celd_joined_node (s->lines, a) == celd_joined_node (s->lines, b) &&
-            (s->heads[s->chain[b / 2]] > 1 || (s->heads[s->chain[b / 2]] && !is_long_enough (s->lines, b / 2))))
-          return false;
-    }
+  for (size_t k = 0; k < s->lines->graph.n_lines; k++)
+    if (s->chain[k] == chain &&
+        (s->margin[k] < least || s->pass_margin[k] < CLEAR_PASS ||
+         is_near_doubt (s, s->lines->graph.line[k].node[0]) || is_near_doubt (s, s->lines->graph.line[k].node[1])))
+      return false;
   return true;
 }
 
@@ -166,25 +175,35 @@ is_fork (const CeldHeadChoice *s, const CeldNodeMarks *node)
   return false;
 }
 
-/* Does an end lead to a place, where others end, or past it? */
-static bool
-leads_to (const CeldHeadChoice *s, size_t end, CeldPoint place)
+/* How far a place is from the straight line on which an end is led on, in widths. */
+static double
+widths_off (const CeldHeadChoice *s, size_t end, CeldPoint place)
 {
   CeldPoint from = celd_joined_led_from (s->lines, end), way = celd_joined_way (s->lines, end);
 
-  return celd_joined_is_free (s->lines, end) ||
-         fabs ((place.x - from.x) * way.y - (place.y - from.y) * way.x) <= MOST_OFF * s->lines->graph.width;
+  return fabs ((place.x - from.x) * way.y - (place.y - from.y) * way.x) / s->lines->graph.width;
 }
 
-/* Would a head at an end without one explain the paint of its node better? */
+/* Does an end lead to a place, and do the others of its node? */
 static bool
-may_have_head (const CeldHeadChoice *s, size_t end, const CeldNodeMarks *node, unsigned set)
+leads_to (const CeldHeadChoice *s, size_t end, const CeldNodeMarks *node, CeldPoint place)
 {
+  double squares = 0;
+
   for (int e = 0; e < node->n; e++)
-    for (unsigned other = 0; other < 1u << node->n; other++)
-      if (node->end[e] == end && other >> e & 1 && node->cost[other] < node->cost[set])
-        return s->lines->style == CELD_ARROW_HEAD && !s->marked[end];
-  return false;
+    squares += pow (widths_off (s, node->end[e], place), 2);
+  return node->n == 1 || (widths_off (s, end, place) <= MOST_OFF && squares <= node->n * MEAN_OFF * MEAN_OFF);
+}
+
+/* What a node may cost with a set of heads; or of dots, which are one. */
+static double
+most_rest (const CeldHeadChoice *s, const CeldNodeMarks *node, unsigned set)
+{
+  int heads = 0;
+
+  for (int e = 0; e < node->n && s->lines->style == CELD_ARROW_HEAD; e++)
+    heads += set >> e & 1 ? 1 : 0;
+  return MOST_REST + (heads > 1 ? MORE_REST * (heads - 1) : 0);
 }
 
 /* Is a head too far behind its tip, where the paint is still wide? */
@@ -204,19 +223,19 @@ is_on_the_way (const CeldHeadChoice *s, const CeldNodeMarks *node, unsigned set)
          (!set && celd_joined_cross_at (s->lines, node->end[0])) || is_fork (s, node);
 }
 
-/* Finds the place of an end; false if it is not apart from others, or if paint is there that nothing explains, or that
- * another choice explains better, or if the lines there may go on. */
+/* Finds the place of an end; false if it is not apart from others, or if paint is there that nothing explains, or if the
+ * lines there may go on. */
 static bool
 find_place (const CeldHeadChoice *s, size_t end, CeldPoint *place)
 {
   const CeldNodeMarks *node = &s->node[celd_joined_node (s->lines, end)];
   unsigned             set = celd_head_choice_at (s, celd_joined_node (s->lines, end));
 
-  if (!node->cost || node->cost[set] > MOST_REST || is_on_the_way (s, node, set) ||
+  if (!node->cost || node->cost[set] > most_rest (s, node, set) || is_on_the_way (s, node, set) ||
       celd_joined_widths_apart (s->lines, end) > CELD_MOST_APART)
     return false;
   *place = node->tip[set];
-  return leads_to (s, end, *place) && !may_have_head (s, end, node, set) && !is_inside_head (s->lines, *place, set);
+  return leads_to (s, end, node, *place) && !is_inside_head (s->lines, *place, set);
 }
 
 /* Is it clear that there is no head or dot at an end, if it is free?  One that other colours hide is not looked for. */
@@ -300,10 +319,11 @@ choice_new (CeldJoinedLines *lines, CeldHeadChoice *s)
     .chain  = celd_alloc0 (n, sizeof *s->chain),
     .heads  = celd_alloc0 (n, sizeof *s->heads),
     .margin = celd_alloc0 (n, sizeof *s->margin),
+    .pass_margin = celd_alloc0 (n, sizeof *s->pass_margin),
     .short_line = celd_alloc0 (n, sizeof *s->short_line),
   };
-  return s->node && s->marked && s->passed && s->chain && s->heads && s->margin && s->short_line ? CELD_OK
-                                                                                                 : CELD_NO_MEMORY;
+  return s->node && s->marked && s->passed && s->chain && s->heads && s->margin && s->pass_margin &&
+         s->short_line ? CELD_OK : CELD_NO_MEMORY;
 }
 
 static void
@@ -321,6 +341,7 @@ choice_clear (CeldHeadChoice *s)
   celd_free (s->chain);
   celd_free (s->heads);
   celd_free (s->margin);
+  celd_free (s->pass_margin);
   celd_free (s->short_line);
 }
 
