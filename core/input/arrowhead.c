@@ -24,6 +24,8 @@
 #define SHORTEST_SHAFT 6   /* pixels; chosen */
 #define LEAST_SHAFT    1.5 /* widths; chosen */
 #define AXIS_ROUNDS    3   /* iterations in which the axis is turned towards the tip; chosen */
+#define LARGE_HEAD     10  /* widths of the shaft: barbs that are longer, ... */
+#define MOST_HEAD      0.6 /* ... and longer than this part of the arrow, are arrows that meet at its tip; chosen */
 
 /* The pixels of a stroke at a distance of `from` or more, in coordinates along an axis: s forwards, v sideways (left of
  * the axis is positive). */
@@ -298,6 +300,13 @@ barb_length (const Extent *e)
   return fmax (hypot (e->most_s - e->left_s, e->left), hypot (e->most_s - e->right_s, e->right));
 }
 
+/* Are the barbs of a head as long as arrows that meet there? */
+static bool
+barbs_are_arrows (const Extent *e, double w, const CeldArrowEnds *ends)
+{
+  return barb_length (e) > fmax (LARGE_HEAD * w, MOST_HEAD * celd_points_apart (ends->tail, ends->tip));
+}
+
 /* Do two lines of a loop meet at the farthest place from where a stroke was followed?  Then their paint just before
  * it is on two sides.  That says nothing if it is no farther than the barbs of a head where the stroke was followed
  * from. */
@@ -345,6 +354,8 @@ read_from_tail (CeldArrowStroke *stroke, uint32_t tail, bool dot, CeldArrowEnds 
     return false;
   tip   = foremost (stroke, &view, e.most_s);
   *ends = (CeldArrowEnds) { celd_stroke_centroid (stroke, 0, fmax (1, w)), dot ? view.origin : tip };
+  if (!dot && barbs_are_arrows (&e, w, ends))
+    return false;
 
   /* The tail must be farthest from the tip; else the stroke was followed from the middle of the shaft, or of a loop. */
   tail = nearest_pixel (stroke, tip);

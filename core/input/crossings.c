@@ -127,8 +127,8 @@ has_blob (const CeldStrokeMask *c, const CeldStrokeCrossing *x)
 {
   double r = 0.5 * x->radius, widest = 0, most;
 
-  for (int i = 0; i < ARMS; i++)
-    widest = fmax (widest, x->breadth[i]);
+  for (int i = 0; i < ARMS / 2; i++)
+    widest = fmax (widest, fmin (x->breadth[i], x->breadth[i + 2])); /* the other arm may be the dot */
   most = BLOB * widest + BLOB_MORE;
   for (int y = (int) fmax (0, x->centre.y - r); y <= x->centre.y + r && y < c->height; y++)
     for (int u = (int) fmax (0, x->centre.x - r); u <= x->centre.x + r && u < c->width; u++)

@@ -25,19 +25,6 @@
 #define LEAST_RING   1    /* ... so many square widths beside its line are seen */
 #define DOT_EDGE     1.5  /* pixels beyond the radius of a dot that belong to it */
 
-/* The mean width of the middle half of a line. */
-static double
-line_width (const CeldJoinedLines *s, size_t k)
-{
-  const CeldStrokeLine *line = &s->graph.line[k];
-  double                sum = 0;
-  size_t                from = line->n / 4, to = line->n - from;
-
-  for (size_t i = from; i < to; i++)
-    sum += 2 * sqrt (s->mask.squared[celd_joined_pixel (s, line->at[i])]) - 1;
-  return sum / (double) (to - from);
-}
-
 /* The widest place of the paint within `reach` pixels of a point; *radius: of the paint there. */
 static CeldPoint
 widest_place (const CeldJoinedLines *s, CeldPoint near, double reach, double *radius)
@@ -76,7 +63,7 @@ find_bare (const CeldJoinedLines *s, const CeldNodeMarks *node, CeldPoint meetin
   for (int e = 0; e < node->n; e++)
     {
       CeldPoint from = celd_joined_led_from (s, node->end[e]);
-      double    half = 0.5 * (line_width (s, node->end[e] / 2) + DOT_SLACK);
+      double    half = 0.5 * (celd_joined_width (s, node->end[e] / 2) + DOT_SLACK);
 
       from = celd_moved (from, celd_joined_way (s, node->end[e]), LINE_SEEN * s->graph.width);
       for (size_t i = 0; i < side * side; i++)
@@ -115,7 +102,7 @@ widest_line (const CeldJoinedLines *s, const CeldNodeMarks *node)
   double width = 0;
 
   for (int e = 0; e < node->n; e++)
-    width = fmax (width, line_width (s, node->end[e] / 2) + DOT_SLACK);
+    width = fmax (width, celd_joined_width (s, node->end[e] / 2) + DOT_SLACK);
   return width;
 }
 

@@ -58,6 +58,11 @@ CeldPoint celd_joined_meeting_point (const CeldJoinedLines *lines, int node);
 double celd_widths_apart (CeldPoint u, CeldPoint v);
 double celd_joined_widths_apart (const CeldJoinedLines *lines, size_t end);
 
+/* The mean width of the middle half of a line, in pixels; and is it much wider than most of the lines?  Then two may lie
+ * on each other. */
+double celd_joined_width (const CeldJoinedLines *lines, size_t line);
+bool   celd_joined_is_wide (const CeldJoinedLines *lines, size_t line);
+
 /* How many lines end at the node of an end. */
 size_t    celd_joined_lines_at (const CeldJoinedLines *lines, size_t end);
 

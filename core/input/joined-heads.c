@@ -260,7 +260,7 @@ has_room (const CeldHeadChoice *s, size_t chain)
   return true;
 }
 
-/* Are they without other paint along them? */
+/* Are they without other paint on them or along them? */
 static bool
 is_alone (const CeldHeadChoice *s, size_t chain)
 {
@@ -268,7 +268,8 @@ is_alone (const CeldHeadChoice *s, size_t chain)
 
   for (size_t k = 0; k < lines->graph.n_lines; k++)
     if (s->chain[k] == chain &&
-        !celd_joined_is_alone (lines, k, (size_t) (CELD_NODE_REACH * lines->graph.width)))
+        (celd_joined_is_wide (lines, k) ||
+         !celd_joined_is_alone (lines, k, (size_t) (CELD_NODE_REACH * lines->graph.width))))
       return false;
   return true;
 }

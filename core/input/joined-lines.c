@@ -19,6 +19,7 @@
 #define PARTING      0.7  /* radians by which lines turn that part, at most */
 #define CROSS_TURN   0.5  /* radians by which lines turn that only cross at a node */
 #define LEAST_APART  1.3  /* from where lines meet to where each is alone */
+#define WIDE         1.3  /* times the width of most lines that two have which lie on each other */
 
 size_t
 celd_joined_lines_at (const CeldJoinedLines *lines, size_t end)
@@ -142,6 +143,28 @@ celd_joined_is_led_to (const CeldJoinedLines *lines, size_t end, CeldPoint place
       painted += is_near_paint (lines, p);
     }
   return painted >= LEAD_LEAST * LEAD_SAMPLES;
+}
+
+double
+celd_joined_width (const CeldJoinedLines *lines, size_t k)
+{
+  const CeldStrokeLine *line = &lines->graph.line[k];
+  double                sum = 0;
+  size_t                from = line->n / 4, to = line->n - from;
+
+  for (size_t i = from; i < to; i++)
+    sum += 2 * sqrt (lines->mask.squared[celd_joined_pixel (lines, line->at[i])]) - 1;
+  return sum / (double) (to - from);
+}
+
+bool
+celd_joined_is_wide (const CeldJoinedLines *lines, size_t k)
+{
+  size_t narrow = 0;
+
+  for (size_t i = 0; i < lines->graph.n_lines; i++)
+    narrow += WIDE * celd_joined_width (lines, i) < celd_joined_width (lines, k);
+  return 2 * narrow > lines->graph.n_lines;
 }
 
 double
