@@ -20,6 +20,7 @@
 #define NO_ARROW      0.5  /* ... of a free line without one that may be a barb, ... */
 #define BARB_LINE     8    /* ... which is no longer than so many widths, ... */
 #define MORE_MARKS    1.1  /* ... and of each head more than one */
+#define HUB_PASS      0.5  /* cost of an arrow that passes a node, for each line but one that ends there */
 #define IMPOSSIBLE    100  /* cost of a head where an arrow passes, and of two arrows of one end */
 #define SMALLER       1e-6 /* costs that differ by less are equal */
 #define MOST_RESTARTS 20   /* after a better choice was found while margins are measured */
@@ -60,6 +61,17 @@ find_chains (CeldHeadChoice *s)
     }
 }
 
+/* What a pass costs for the lines that end at its node: where many do, arrows hardly pass. */
+static double
+cost_of_hub (const CeldHeadChoice *s, const CeldArrowPass *pass)
+{
+  int node = celd_joined_node (s->lines, pass->end[0]), ends = s->node[node].n;
+
+  for (size_t i = 0; i < s->n_on; i++)
+    ends -= celd_joined_node (s->lines, s->pass[s->on[i]].end[0]) == node ? 2 : 0;
+  return ends > 1 ? HUB_PASS * (ends - 1) : 0;
+}
+
 /* What the passes that are on cost; lists them. */
 static double
 cost_of_passes (CeldHeadChoice *s)
@@ -81,6 +93,8 @@ cost_of_passes (CeldHeadChoice *s)
             s->passed[end] = true;
           }
       }
+  for (size_t i = 0; i < s->n_on; i++)
+    cost += cost_of_hub (s, &s->pass[s->on[i]]);
   return cost;
 }
 

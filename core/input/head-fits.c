@@ -19,6 +19,8 @@
 #define TIP_STEP     0.5  /* between places for the tip, ... */
 #define TIP_STEPS    4    /* ... on either side of where the lines meet, ... */
 #define TIP_OFF      0.05 /* ... and what the square of that distance costs */
+#define PAIR_TURN    0.6  /* radians by which two lines turn that go about straight on, ... */
+#define LONGER_STEP  2    /* ... and how many times as far the places along them are */
 #define AS_GOOD      0.15 /* of the cost: places of which the middle is taken */
 #define LEAST_SPLAY  0.3  /* radians between the line and a barb, ... */
 #define MOST_SPLAY   1.05
@@ -174,24 +176,45 @@ costs_at (const CeldJoinedLines *s, const CeldNodeMarks *node, CeldPoint tip, Ce
     }
 }
 
+/* The steps between places for the tip: those along two lines that go straight on are longer, because where these meet
+ * says little. */
+static void
+find_steps (const CeldJoinedLines *s, const CeldNodeMarks *marks, CeldPoint step[2])
+{
+  double    length = TIP_STEP * s->graph.width;
+  CeldPoint along = { 1, 0 };
+
+  if (marks->n == 2 && s->style == CELD_ARROW_HEAD &&
+      celd_joined_turn (s, marks->end[0], marks->end[1]) < PAIR_TURN)
+    {
+      along   = celd_joined_way (s, marks->end[0]);
+      step[0] = (CeldPoint) { LONGER_STEP * length * along.x, LONGER_STEP * length * along.y };
+    }
+  else
+    step[0] = (CeldPoint) { length, 0 };
+  step[1] = (CeldPoint) { -length * along.y, length * along.x };
+}
+
 /* The costs of all choices, with their tips at the place that is best for them. */
 static CeldStatus
 find_places (const CeldJoinedLines *s, CeldPoint meeting, CeldPaintWindow *w, CeldNodeMarks *marks)
 {
   enum { SIDE = 2 * TIP_STEPS + 1, PLACES = SIDE * SIDE };
   size_t  sets = (size_t) 1 << marks->n;
-  double *all = celd_alloc (PLACES * sets, sizeof *all), width = s->graph.width;
+  double *all = celd_alloc (PLACES * sets, sizeof *all);
+  CeldPoint step[2];
 
   if (!all)
     return CELD_NO_MEMORY;
+  find_steps (s, marks, step);
   for (int k = 0; k < PLACES; k++)
     {
-      double    x = TIP_STEP * (k % SIDE - TIP_STEPS), y = TIP_STEP * (k / SIDE - TIP_STEPS);
-      CeldPoint tip = { meeting.x + x * width, meeting.y + y * width };
+      double    x = k % SIDE - TIP_STEPS, y = k / SIDE - TIP_STEPS;
+      CeldPoint tip = celd_moved (celd_moved (meeting, step[0], x), step[1], y);
 
       costs_at (s, marks, tip, w, &all[(size_t) k * sets]);
       for (size_t set = 0; set < sets; set++)
-        all[(size_t) k * sets + set] += TIP_OFF * (x * x + y * y);
+        all[(size_t) k * sets + set] += TIP_OFF * TIP_STEP * TIP_STEP * (x * x + y * y);
     }
   for (size_t set = 0; set < sets; set++)
     {
@@ -203,13 +226,12 @@ find_places (const CeldJoinedLines *s, CeldPoint meeting, CeldPaintWindow *w, Ce
       for (int k = 0; k < PLACES; k++)
         if (all[(size_t) k * sets + set] <= marks->cost[set] + AS_GOOD)
           {
-            double dx = TIP_STEP * (k % SIDE - TIP_STEPS), dy = TIP_STEP * (k / SIDE - TIP_STEPS);
-
             n++;
-            x += dx;
-            y += dy;
+            x += k % SIDE - TIP_STEPS;
+            y += k / SIDE - TIP_STEPS;
           }
-      marks->tip[set] = (CeldPoint) { meeting.x + x / n * width, meeting.y + y / n * width };
+      n *= marks->n > 2 ? 2 : 1; /* where many meet, their lines tell as much as heads that lie on each other */
+      marks->tip[set] = celd_moved (celd_moved (meeting, step[0], x / n), step[1], y / n);
     }
   celd_free (all);
   return CELD_OK;

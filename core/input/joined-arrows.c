@@ -202,6 +202,7 @@ celd_joined_arrows_read (CeldArrowStroke *stroke, const CeldStrokeCover *cover, 
   found->width = n ? s.graph.width : 0;
   celd_free (s.hidden);
   celd_free (s.explained);
+  celd_free (s.lead);
   celd_stroke_graph_clear (&s.graph);
   celd_stroke_mask_clear (&s.mask);
   return status;

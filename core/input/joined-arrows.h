@@ -27,6 +27,7 @@ typedef struct
   const CeldStrokeCover *cover; /* NULL: there are no other colours; borrowed */
   uint8_t         *hidden;    /* of each pixel of the mask: has it paint of other colours?  NULL: there are none */
   uint8_t         *explained; /* the same size: is it hidden, or does it belong to a line? */
+  size_t          *lead;      /* of each end: from where its line is alone; NULL: a width or two from the node */
 } CeldJoinedLines;
 
 /* The arrow of a line.  unclear: why it has no ends; first: the line whose arrow this one is a part of, most often
@@ -43,6 +44,10 @@ double celd_joined_turn (const CeldJoinedLines *lines, size_t a, size_t b);
 
 /* The point of the line of an end that is so many points from there. */
 CeldPoint celd_joined_point (const CeldJoinedLines *lines, size_t end, double steps);
+
+/* Finds for all ends from where their lines are alone: before that, those beside them and heads draw the thinned paint
+ * aside. */
+CeldStatus celd_joined_leads_find (CeldJoinedLines *lines);
 
 /* From where a line is led on straight to its node, because the thinned paint follows heads there: the number of points
  * from the end, and the place. */

@@ -14,15 +14,18 @@
 /* All chosen; costs are square widths of paint. */
 #define PASS_TURN      0.6  /* radians by which an arrow may turn where it passes others, ... */
 #define FREE_TURN      0.35 /* ... and by which it may turn for a cost of 1; ... */
+#define CORNER_JOIN    0.4  /* radians by which lines turn at a corner that are two arrows, at least */
 #define MOST_BEND      1.3  /* ... the same at the corner of a line */
 #define FREE_BEND      0.7
-#define CLEAR_HEAD     0.5  /* cost by which other heads of the lines of an arrow must be worse, ... */
+#define CLEAR_HEAD     0.6  /* cost by which other heads of the lines of an arrow must be worse, ... */
 #define CLEAR_DOT      1    /* ... or dots, ... */
 #define CLEAR_PASS     1    /* ... and any pass that is changed */
 #define MOST_REST      1.5  /* cost of a node where all is clear, ... */
 #define MORE_REST      1    /* ... and for each head more than one: the paint of heads on each other fits none exactly */
+#define LEAST_SHOWN    0.5  /* cost that a node would have without its heads or dots, if many lines meet there */
 #define MOST_OFF       1.5  /* widths by which a line may pass the place where it ends, ... */
 #define MEAN_OFF       0.85 /* ... and all lines of a node, as the root of the mean square: two nodes may look like one */
+#define LINES_OFF      1    /* widths from the place of heads where many lines meet to where these lead, at most */
 #define TIP_RADIUS     1.3  /* widths from the tip of a head to where there is no paint, at most */
 #define BARE_MARGIN    0.75 /* cost by which a free end must be better without a head */
 #define SHORTEST_ARROW 6    /* widths that the line of an arrow is long */
@@ -123,10 +126,12 @@ least_length (const CeldJoinedLines *lines, size_t k)
            ? 2 * CELD_HEAD_REACH : SHORTEST_ARROW;
 }
 
+/* Is a line long enough for an arrow, or a part of one that has its head elsewhere? */
 static bool
-is_long_enough (const CeldJoinedLines *lines, size_t k)
+is_long_enough (const CeldHeadChoice *s, size_t k)
 {
-  return celd_stroke_line_length (&lines->graph.line[k]) >= least_length (lines, k) * lines->graph.width;
+  return (s->heads[s->chain[k]] && !s->marked[2 * k] && !s->marked[2 * k + 1]) ||
+         celd_stroke_line_length (&s->lines->graph.line[k]) >= least_length (s->lines, k) * s->lines->graph.width;
 }
 
 /* Do lines end at a node that are not one arrow, with two heads, or too short for their head?  What is next to such a
@@ -136,7 +141,7 @@ is_near_doubt (const CeldHeadChoice *s, int node)
 {
   for (size_t i = 0; i < 2 * s->lines->graph.n_lines; i++)
     if (celd_joined_node (s->lines, i) == node &&
-        (s->heads[s->chain[i / 2]] > 1 || (s->heads[s->chain[i / 2]] && !is_long_enough (s->lines, i / 2))))
+        (s->heads[s->chain[i / 2]] > 1 || (s->heads[s->chain[i / 2]] && !is_long_enough (s, i / 2))))
       return true;
   return false;
 }
@@ -184,12 +189,16 @@ widths_off (const CeldHeadChoice *s, size_t end, CeldPoint place)
   return fabs ((place.x - from.x) * way.y - (place.y - from.y) * way.x) / s->lines->graph.width;
 }
 
-/* Does an end lead to a place, and do the others of its node? */
+/* Does an end lead to a place, and do the others of its node, alone and together? */
 static bool
 leads_to (const CeldHeadChoice *s, size_t end, const CeldNodeMarks *node, CeldPoint place)
 {
-  double squares = 0;
+  CeldPoint meeting = celd_joined_meeting_point (s->lines, celd_joined_node (s->lines, end));
+  double    squares = 0;
 
+  if (node->n > 2 && s->lines->style == CELD_ARROW_HEAD &&
+      celd_points_apart (meeting, place) > LINES_OFF * s->lines->graph.width)
+    return false;
   for (int e = 0; e < node->n; e++)
     squares += pow (widths_off (s, node->end[e], place), 2);
   return node->n == 1 || (widths_off (s, end, place) <= MOST_OFF && squares <= node->n * MEAN_OFF * MEAN_OFF);
@@ -219,8 +228,15 @@ is_inside_head (const CeldJoinedLines *s, CeldPoint tip, unsigned set)
 static bool
 is_on_the_way (const CeldHeadChoice *s, const CeldNodeMarks *node, unsigned set)
 {
-  return (node->n == 2 && !set && celd_joined_turn (s->lines, node->end[0], node->end[1]) < PASS_TURN) ||
+  return (node->n == 2 && !set && celd_joined_turn (s->lines, node->end[0], node->end[1]) < CORNER_JOIN) ||
          (!set && celd_joined_cross_at (s->lines, node->end[0])) || is_fork (s, node);
+}
+
+/* Is there paint of heads where many lines meet?  Else those that cross may look like them, if nothing is hidden. */
+static bool
+shows_heads (const CeldHeadChoice *s, const CeldNodeMarks *node, unsigned set)
+{
+  return !set || node->n <= 2 || s->lines->hidden || node->cost[0] >= LEAST_SHOWN;
 }
 
 /* Finds the place of an end; false if it is not apart from others, or if paint is there that nothing explains, or if the
@@ -231,8 +247,8 @@ find_place (const CeldHeadChoice *s, size_t end, CeldPoint *place)
   const CeldNodeMarks *node = &s->node[celd_joined_node (s->lines, end)];
   unsigned             set = celd_head_choice_at (s, celd_joined_node (s->lines, end));
 
-  if (!node->cost || node->cost[set] > most_rest (s, node, set) || is_on_the_way (s, node, set) ||
-      celd_joined_widths_apart (s->lines, end) > CELD_MOST_APART)
+  if (!node->cost || node->cost[set] > most_rest (s, node, set) || !shows_heads (s, node, set) ||
+      is_on_the_way (s, node, set) || celd_joined_widths_apart (s->lines, end) > CELD_MOST_APART)
     return false;
   *place = node->tip[set];
   return leads_to (s, end, node, *place) && !is_inside_head (s->lines, *place, set);
@@ -255,7 +271,7 @@ static bool
 has_room (const CeldHeadChoice *s, size_t chain)
 {
   for (size_t k = 0; k < s->lines->graph.n_lines; k++)
-    if (s->chain[k] == chain && !is_long_enough (s->lines, k))
+    if (s->chain[k] == chain && !is_long_enough (s, k))
       return false;
   return true;
 }
@@ -355,6 +371,8 @@ celd_joined_heads_read (CeldJoinedLines *lines, CeldLineArrow **arrows)
   *arrows = celd_alloc0 (lines->graph.n_lines, sizeof **arrows);
   if (!*arrows)
     status = CELD_NO_MEMORY;
+  if (status == CELD_OK)
+    status = celd_joined_leads_find (lines);
   if (status == CELD_OK)
     status = find_node_marks (&s);
   if (status == CELD_OK)

@@ -5,6 +5,7 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
+#include "base/base.h"
 #include "input/joined-arrows.h"
 
 #include <math.h>
@@ -13,13 +14,16 @@
 #define FROM_NODE    2    /* from a node where the direction of a line is measured, ... */
 #define TO_NODE      5    /* ... to here, ... */
 #define TO_MORE      4    /* ... and pixels more */
+#define FROM_MOST    8    /* the same where a line is not alone before, ... */
+#define ALONE        1.2  /* ... because the paint is wider than so many widths of the line, ... */
+#define ALONE_MORE   0.5  /* ... and pixels more */
 #define LEAD_SAMPLES 20   /* of the way from a line to a node, ... */
 #define LEAD_OFF     0.1  /* ... or near paint, ... */
 #define LEAD_LEAST   0.75 /* ... of which at least so much is painted */
 #define PARTING      0.7  /* radians by which lines turn that part, at most */
 #define CROSS_TURN   0.5  /* radians by which lines turn that only cross at a node */
 #define LEAST_APART  1.3  /* from where lines meet to where each is alone */
-#define WIDE         1.3  /* times the width of most lines that two have which lie on each other */
+#define TWO_WIDE     1.3  /* times the width of most lines that two have which lie on each other */
 
 size_t
 celd_joined_lines_at (const CeldJoinedLines *lines, size_t end)
@@ -55,10 +59,16 @@ celd_joined_is_at_frame (const CeldJoinedLines *s, CeldPoint place)
   return fmin (x, y) < reach || x > s->stroke->width - reach || y > s->stroke->height - reach;
 }
 
-size_t
-celd_joined_lead (const CeldJoinedLines *lines, size_t end)
+double
+celd_joined_width (const CeldJoinedLines *lines, size_t k)
 {
-  return (size_t) fmin (FROM_NODE * lines->graph.width, 0.3 * (double) lines->graph.line[end / 2].n);
+  const CeldStrokeLine *line = &lines->graph.line[k];
+  double                sum = 0;
+  size_t                from = line->n / 4, to = line->n - from;
+
+  for (size_t i = from; i < to; i++)
+    sum += 2 * sqrt (lines->mask.squared[celd_joined_pixel (lines, line->at[i])]) - 1;
+  return sum / (double) (to - from);
 }
 
 CeldPoint
@@ -70,6 +80,43 @@ celd_joined_point (const CeldJoinedLines *lines, size_t end, double steps)
   return line->at[end % 2 ? line->n - 1 - i : i];
 }
 
+/* The first point of a line, from an end, where it is as narrow as elsewhere for a width: where it is alone. */
+static size_t
+first_alone (const CeldJoinedLines *lines, size_t end)
+{
+  double width = lines->graph.width, n = (double) lines->graph.line[end / 2].n, run = 0;
+  double least = fmin (FROM_NODE * width, 0.3 * n), most = fmin (FROM_MOST * width, 0.3 * n);
+  double narrow = 0.5 * ALONE * celd_joined_width (lines, end / 2) + ALONE_MORE;
+
+  for (double i = floor (least); i < most; i++)
+    {
+      double radius = sqrt (lines->mask.squared[celd_joined_pixel (lines, celd_joined_point (lines, end, i))]) - 0.5;
+
+      run = radius <= narrow ? run + 1 : 0;
+      if (run >= width)
+        return (size_t) (i + 1 - run);
+    }
+  return (size_t) least;
+}
+
+CeldStatus
+celd_joined_leads_find (CeldJoinedLines *lines)
+{
+  size_t *lead = celd_alloc (2 * lines->graph.n_lines, sizeof *lead);
+
+  for (size_t i = 0; lead && i < 2 * lines->graph.n_lines; i++)
+    lead[i] = first_alone (lines, i);
+  lines->lead = lead;
+  return lead ? CELD_OK : CELD_NO_MEMORY;
+}
+
+size_t
+celd_joined_lead (const CeldJoinedLines *lines, size_t end)
+{
+  return lines->lead ? lines->lead[end]
+                     : (size_t) fmin (FROM_NODE * lines->graph.width, 0.3 * (double) lines->graph.line[end / 2].n);
+}
+
 CeldPoint
 celd_joined_led_from (const CeldJoinedLines *lines, size_t end)
 {
@@ -79,8 +126,11 @@ celd_joined_led_from (const CeldJoinedLines *lines, size_t end)
 CeldPoint
 celd_joined_way (const CeldJoinedLines *lines, size_t end)
 {
-  double    far = fmin (TO_NODE * lines->graph.width + TO_MORE, 0.7 * (double) lines->graph.line[end / 2].n);
-  CeldPoint a = celd_joined_point (lines, end, far * FROM_NODE / TO_NODE), b = celd_joined_point (lines, end, far);
+  double    most = 0.7 * (double) lines->graph.line[end / 2].n;
+  double    far = fmin (TO_NODE * lines->graph.width + TO_MORE, most), near = far * FROM_NODE / TO_NODE;
+  double    more = lines->lead ? fmax (0, (double) lines->lead[end] - near) : 0;
+  CeldPoint a = celd_joined_point (lines, end, near + more);
+  CeldPoint b = celd_joined_point (lines, end, fmin (far + more, most));
   double    length = fmax (1e-9, hypot (b.x - a.x, b.y - a.y));
 
   return (CeldPoint) { (b.x - a.x) / length, (b.y - a.y) / length };
@@ -145,25 +195,13 @@ celd_joined_is_led_to (const CeldJoinedLines *lines, size_t end, CeldPoint place
   return painted >= LEAD_LEAST * LEAD_SAMPLES;
 }
 
-double
-celd_joined_width (const CeldJoinedLines *lines, size_t k)
-{
-  const CeldStrokeLine *line = &lines->graph.line[k];
-  double                sum = 0;
-  size_t                from = line->n / 4, to = line->n - from;
-
-  for (size_t i = from; i < to; i++)
-    sum += 2 * sqrt (lines->mask.squared[celd_joined_pixel (lines, line->at[i])]) - 1;
-  return sum / (double) (to - from);
-}
-
 bool
 celd_joined_is_wide (const CeldJoinedLines *lines, size_t k)
 {
   size_t narrow = 0;
 
   for (size_t i = 0; i < lines->graph.n_lines; i++)
-    narrow += WIDE * celd_joined_width (lines, i) < celd_joined_width (lines, k);
+    narrow += TWO_WIDE * celd_joined_width (lines, i) < celd_joined_width (lines, k);
   return 2 * narrow > lines->graph.n_lines;
 }
 

@@ -18,6 +18,7 @@
 #define BRANCH        7    /* length of a branch that is no stroke, ... */
 #define LONGER        1.5  /* ... and how many times as long another line of its node is */
 #define BRANCH_WEIGHT 0.5  /* of a branch where lines should meet; of lines: 1 */
+#define STRAIGHT_ON   0.35 /* radians by which a branch turns that leads on a line beyond another one */
 #define FILLED        0.95 /* radius of the paint where branches are of a filled head, and do not meet at its tip */
 #define NEAR          5.5  /* between nodes that are one if there are heads; ... */
 #define NEAREST       2    /* ... if there are none; ... */
@@ -94,8 +95,35 @@ is_rough (const Build *b, const CeldStrokeLine *line, int hub)
   return celd_stroke_line_length (line) <= ROUGH * radius_at (b, b->graph.node[hub].at) + ROUGH_MORE;
 }
 
+/* The direction of a line from one of its ends. */
+static CeldPoint
+direction (const CeldStrokeGraph *g, const CeldStrokeLine *line, int end)
+{
+  size_t    last = line->n - 1, reach = (size_t) fmin (DIRECTION * g->width, (double) last);
+  CeldPoint a = line->at[end ? last : 0], b = line->at[end ? last - reach : reach];
+
+  return (CeldPoint) { b.x - a.x, b.y - a.y };
+}
+
+/* Does a branch lead on another line of its node?  Then it may be the end of a stroke that crosses others there. */
+static bool
+leads_on (const CeldStrokeGraph *g, size_t k, int hub)
+{
+  CeldPoint on = direction (g, &g->line[k], g->line[k].node[1] == hub);
+
+  for (size_t i = 0; i < 2 * g->n_lines; i++)
+    if (i / 2 != k && g->line[i / 2].node[i % 2] == hub)
+      {
+        CeldPoint into = direction (g, &g->line[i / 2], i % 2);
+
+        if (fabs (atan2 (into.y * on.x - into.x * on.y, -into.x * on.x - into.y * on.y)) < STRAIGHT_ON)
+          return true;
+      }
+  return false;
+}
+
 /* Removes branches with a free end that are no longer than rough edges or the lines of arrowheads, but for one beside a
- * rough edge: that is the end of a stroke. */
+ * rough edge, or beyond a line: that is the end of a stroke. */
 static CeldStatus
 remove_branches (Build *b)
 {
@@ -123,8 +151,9 @@ remove_branches (Build *b)
       CeldStrokeLine *line = &g->line[k];
       int             end = branch_end (g, line, ends), hub = end < 0 ? 0 : line->node[!end];
       bool            rough = end >= 0 && is_rough (b, line, hub);
+      bool            single = end >= 0 && real[hub] == 1 && (left[hub] == 1 || (left[hub] == 3 && leads_on (g, k, hub)));
 
-      if (end < 0 || (!rough && (!b->heads || (left[hub] == 1 && real[hub] == 1))))
+      if (end < 0 || (!rough && (!b->heads || single)))
         continue;
       if (!rough && radius_at (b, g->node[hub].at) < FILLED * g->width)
         add_branch (g, line, end);
@@ -196,16 +225,6 @@ add_node (CeldStrokeNode *a, const CeldStrokeNode *b)
     a->branches.xx + b->branches.xx, a->branches.xy + b->branches.xy, a->branches.yy + b->branches.yy,
     a->branches.x + b->branches.x, a->branches.y + b->branches.y,
   };
-}
-
-/* The direction of a line from one of its ends. */
-static CeldPoint
-direction (const CeldStrokeGraph *g, const CeldStrokeLine *line, int end)
-{
-  size_t    last = line->n - 1, reach = (size_t) fmin (DIRECTION * g->width, (double) last);
-  CeldPoint a = line->at[end ? last : 0], b = line->at[end ? last - reach : reach];
-
-  return (CeldPoint) { b.x - a.x, b.y - a.y };
 }
 
 /* Do at least two other lines of a node of line k go about straight on from there?  Then they lie on each other along it:

@@ -9,6 +9,8 @@
 
 /* All chosen; lengths are widths of the paint. */
 #define TURN        0.5  /* radians of a corner, ... */
+#define CORNER_TURN 0.35 /* ... or of one that is sharp: ... */
+#define SHARP       0.75 /* ... of that turn half as far round it */
 #define TURN_REACH  4    /* ... between the directions this far before and behind it, ... */
 #define TURN_MARGIN 6    /* ... this far from the ends of the line, which may belong to heads */
 #define CORNER_OFF  1.5  /* between a corner of the thinned paint and where its lines meet */
@@ -88,6 +90,15 @@ turn_at (const CeldStrokeLine *line, size_t i, size_t reach)
                       (b.x - a.x) * (c.x - b.x) + (b.y - a.y) * (c.y - b.y)));
 }
 
+/* The same if it is large enough for a corner, else 0: bent arrows turn, too, but not as sharply. */
+static double
+corner_at (const CeldStrokeLine *line, size_t i, size_t reach)
+{
+  double turn = turn_at (line, i, reach);
+
+  return turn > TURN || (turn > CORNER_TURN && turn_at (line, i, reach / 2) > SHARP * turn) ? turn : 0;
+}
+
 /* Adds the direction of a line between two of its points. */
 static void
 add_part (CeldLineSums *sums, const CeldStrokeLine *line, size_t from, size_t to)
@@ -105,12 +116,12 @@ celd_stroke_line_corner (const CeldStrokeGraph *g, size_t k, CeldPoint *place)
   const CeldStrokeLine *line = &g->line[k];
   size_t                reach = (size_t) (TURN_REACH * g->width + 3), best = 0;
   size_t                margin = (size_t) (TURN_MARGIN * g->width);
-  double                most = TURN;
+  double                most = 0;
   CeldLineSums          sums = { 0 };
 
   for (size_t i = margin; i + margin < line->n; i++)
     {
-      double turn = turn_at (line, i, reach);
+      double turn = corner_at (line, i, reach);
 
       if (turn > most)
         {
