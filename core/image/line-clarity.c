@@ -40,7 +40,7 @@
 #define MANY_PARTIAL   0.46 /* the share of partial values in what may be no drawing (measured, see above) */
 #define LEAST_CLASSES  0.72 /* Otsu's measure of drawings with as many (measured) */
 #define LEAST_RADIUS   4    /* pixels: grain stays in narrower closings, too; measured */
-#define FLAT_SHARE     0.45 /* of pixels are flat in coloured drawings (measured: 0.5 to 0.95; photographs: up to 0.35) */
+#define MANY_FLAT      0.45 /* of pixels are flat in coloured drawings (measured: 0.5 to 0.95; photographs: up to 0.35) */
 #define MOST_FLAT      0.9  /* of these have ... */
 #define FILL_VALUES    40   /* ... so many values at most (measured: up to 26) */
 #define MUCH_STAYS     0.07 /* the share of variation that stays in photographs with as many (measured) */
@@ -331,7 +331,7 @@ has_flat_fills (const CeldMask *picture)
             flat++;
           }
       }
-  return (double) flat >= FLAT_SHARE * (double) pixels && values_of_most (of, MOST_FLAT) <= FILL_VALUES;
+  return (double) flat >= MANY_FLAT * (double) pixels && values_of_most (of, MOST_FLAT) <= FILL_VALUES;
 }
 
 static CeldStatus
