@@ -39,6 +39,14 @@
  *   joined-passes.c      where arrows that fade or taper go on from line to line
  *   joined-places.c      where the ends of such lines are
  *   joined-profiles.c    the arrows of lines that fade or taper
+ *   search-places.c      where arrows that share ends may begin or end
+ *   search-shafts.c      lines inside the paint between such places
+ *   search-heads.c       heads and dots that fit there
+ *   search-cover.c       the paint that each such arrow explains
+ *   search-choice.c      what a choice of arrows costs
+ *   search-moves.c       the choice that costs least
+ *   search-margins.c     how much better its arrows are than others
+ *   search-arrows.c      arrows that share ends, read by that choice
  *   joined-paint.c       which paint belongs to which of such arrows
  *   joined-arrows.c      arrows of one colour that share ends
  *   arrow-colours.c      the paint of each colour of a component

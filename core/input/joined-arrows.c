@@ -1,11 +1,13 @@
 /* Arrows of one colour that share ends: several from one point, several to one point, or one behind the other.
  *
- * The paint is a graph of lines (stroke-graph.c), of which each may be an arrow: joined-heads.c reads those with heads
- * or dots, joined-profiles.c those that fade or taper.  Two lines that meet and go straight on may be one arrow that
+ * Those with heads are read by the choice of arrows that explains their paint best (search-arrows.c).  If they are very
+ * many, or others hide some of their paint, or if they have dots, fade or taper, the paint is a graph of lines
+ * (stroke-graph.c), of which each may be an arrow (joined-heads.c, joined-profiles.c).  Two lines that meet and go straight on may be one arrow that
  * passes there.  They are read only if both begin or both end there, or if the head is clear between them.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
+#include "input/arrow-search.h"
 #include "input/joined-arrows.h"
 
 #include <math.h>
@@ -111,6 +113,19 @@ tell (const CeldJoinedLines *s, const CeldLineArrow *arrows, bool crack, CeldRel
   return status;
 }
 
+/* Reads lines with heads by the choice of arrows that explains all paint; those with dots, and those of which others hide
+ * some paint or which are too many for that, by what is at nodes. */
+static CeldStatus
+read_marks (CeldJoinedLines *s, CeldLineArrow **arrows)
+{
+  CeldStatus status = CELD_OK;
+
+  *arrows = NULL;
+  if (s->style == CELD_ARROW_HEAD && !s->cover)
+    status = celd_search_arrows_read (s, arrows);
+  return status == CELD_OK && !*arrows ? celd_joined_heads_read (s, arrows) : status;
+}
+
 /* Reads all lines.  *n: arrows; fewer than two are none, because a single stroke that is unclear stays so, unless some
  * of its paint is hidden. */
 static CeldStatus
@@ -120,8 +135,7 @@ read_lines (CeldJoinedLines *s, const CeldArrowLayer *layer, CeldRelations *rela
   bool           crack = celd_arrow_is_blue (s->stroke, layer);
   bool           profiles = s->style == CELD_ARROW_FADE || s->style == CELD_ARROW_TAPER;
   CeldLineArrow *arrows;
-  CeldStatus     status = profiles ? celd_joined_profiles_read (s, layer, &arrows)
-                                   : celd_joined_heads_read (s, &arrows);
+  CeldStatus     status = profiles ? celd_joined_profiles_read (s, layer, &arrows) : read_marks (s, &arrows);
 
   for (size_t k = 0; k < s->graph.n_lines && status == CELD_OK && s->hidden; k++)
     if (is_as_short_as_head (s, &arrows[k]))

@@ -1,0 +1,171 @@
+/* Arrows that share ends, as the choice of shafts and heads that explains their paint best: what search-*.c share.
+ *
+ * Lengths are pixels of the mask unless something else is said; costs are square widths of paint.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#ifndef CELD_ARROW_SEARCH_H
+#define CELD_ARROW_SEARCH_H
+
+#include "input/joined-arrows.h"
+
+#define CELD_MOST_CHOSEN 250 /* arrows of connected paint, at most; chosen */
+#define CELD_SAME_COST   3   /* of two arrows along one line; chosen */
+#define CELD_NEAR_ENDS   1.5 /* widths, and a pixel: ends of two arrows that are at one place, at most; chosen */
+
+/* A line inside the paint from one place to another.  cost: for how it bends and for paint that is narrow; bow: how far
+ * it is from its chord at most, by the length of that. */
+typedef struct { size_t place[2]; CeldPoint *at; size_t n; double length, cost, bow; } CeldShaft;
+
+/* Cells of paint; bare: how many of them nothing that is chosen covers. */
+typedef struct { uint32_t *cell; size_t n, bare; } CeldPaintPiece;
+
+/* An arrow that may be chosen: a shaft with a head, or a dot, at one of its ends.  cost: without what it explains;
+ * mark_cost: the part of that for what is not painted of the head or dot. */
+typedef struct { size_t shaft; int end; double cost, mark_cost; size_t body, mark; } CeldArrowOption;
+
+/* The chosen options, and what that costs. */
+typedef struct { size_t item[CELD_MOST_CHOSEN], n; double cost; } CeldArrowChoice;
+
+typedef struct
+{
+  const CeldStrokeMask *mask;
+  double                width;   /* of the paint */
+  bool                  dot;     /* arrows have dots, at their nearer ends */
+  float                *room;    /* of each pixel of the mask: the distance to the edge of the paint */
+
+  CeldPoint            *place;   /* where arrows may begin or end */
+  size_t                n_places, place_capacity;
+  CeldShaft            *shaft;
+  size_t                n_shafts, shaft_capacity;
+
+  /* Cells are squares of `step` pixels, and `area` in costs; stamp: of each cell the last outline that has it. */
+  double                step, per_pixel, area; /* per_pixel: 1 / step */
+  int                   columns, rows;
+  uint8_t              *painted;
+  uint16_t             *covers;  /* of each cell: how many pieces that are chosen have it */
+  uint32_t             *stamp, tick;
+  uint32_t             *first, *piece_at; /* the pieces of cell c: piece_at[first[c] .. first[c + 1]] */
+  CeldPaintPiece       *piece;
+  size_t                n_pieces, piece_capacity;
+
+  CeldArrowOption      *option;
+  size_t                n_options, option_capacity;
+  bool                 *chosen;  /* of each option */
+  uint16_t             *banned;  /* of each option: for how many reasons it may not be chosen now */
+  CeldArrowChoice       choice;
+
+  uint8_t              *passes;  /* of each shaft and place: does the shaft pass it closely?  By shaft, then place */
+  size_t               *arrows_at; /* of each place: chosen arrows that end there */
+  double               *place_cost; /* of each place: what it costs if an arrow ends there */
+  size_t               *passed;  /* of each shaft: places that it passes where arrows end */
+  size_t               *uses;    /* of each shaft: options with it that are chosen */
+} CeldArrowSearch;
+
+static inline double
+celd_search_room (const CeldArrowSearch *s, CeldPoint p)
+{
+  return p.x >= 0 && p.y >= 0 && p.x < s->mask->width && p.y < s->mask->height
+           ? (double) s->room[(size_t) p.y * (size_t) s->mask->width + (size_t) p.x] : 0;
+}
+
+/* The cell at a point; SIZE_MAX outside. */
+static inline size_t
+celd_search_cell (const CeldArrowSearch *s, CeldPoint p)
+{
+  double x = p.x * s->per_pixel, y = p.y * s->per_pixel;
+
+  return x >= 0 && y >= 0 && x < s->columns && y < s->rows ? (size_t) y * (size_t) s->columns + (size_t) x : SIZE_MAX;
+}
+
+static inline CeldPoint
+celd_search_between (CeldPoint a, CeldPoint b, double t)
+{
+  return (CeldPoint) { a.x + t * (b.x - a.x), a.y + t * (b.y - a.y) };
+}
+
+/* The place where an option has its head or dot (marked), or its other end. */
+static inline CeldPoint
+celd_option_place (const CeldArrowSearch *s, const CeldArrowOption *o, bool marked)
+{
+  return s->place[s->shaft[o->shaft].place[(o->end == 1) == marked]];
+}
+
+/* ------------------------------------------------------------------ search-places.c */
+
+CeldStatus celd_search_places_find (CeldArrowSearch *search);
+
+/* ------------------------------------------------------------------ search-shafts.c */
+
+CeldStatus celd_search_shafts_find (CeldArrowSearch *search);
+
+/* The direction of a shaft into one of its ends, measured from a distance. */
+CeldPoint celd_shaft_way (const CeldShaft *shaft, int end, double from);
+
+/* ------------------------------------------------------------------ search-heads.c */
+
+/* The outline of a head or dot: the tip, or the centre, and the ends of barbs; `filled` heads have the tip a little
+ * ahead. */
+typedef enum { CELD_OUTLINE_OPEN, CELD_OUTLINE_FILLED, CELD_OUTLINE_DOT } CeldOutlineKind;
+typedef struct { CeldOutlineKind kind; CeldPoint tip, barb[2]; double radius, cost; } CeldHeadOutline;
+
+/* The head that fits the paint best near a place where a line in direction `way` ends.  `shaft` (of each cell: is it of
+ * that line?): only paint beside that shows a head; NULL: it is not known. */
+CeldHeadOutline celd_search_head_fit (const CeldArrowSearch *search, CeldOutlineKind kind, CeldPoint place,
+                                      CeldPoint way, const uint8_t *shaft);
+CeldHeadOutline celd_search_dot_fit (const CeldArrowSearch *search, CeldPoint place);
+
+/* ------------------------------------------------------------------ search-cover.c */
+
+CeldStatus celd_search_cells_new (CeldArrowSearch *search);
+
+/* Makes the options of all shafts. */
+CeldStatus celd_search_options_new (CeldArrowSearch *search);
+
+/* ------------------------------------------------------------------ search-choice.c */
+
+CeldStatus celd_search_choice_new (CeldArrowSearch *search);
+
+/* What choosing an option adds to the cost; it is not chosen yet. */
+double celd_search_change (CeldArrowSearch *search, size_t option);
+void   celd_search_choose (CeldArrowSearch *search, size_t option);
+void   celd_search_leave (CeldArrowSearch *search, size_t option);
+void   celd_search_restore (CeldArrowSearch *search, const CeldArrowChoice *choice);
+
+/* Chooses what lowers the cost most, up to `most` times. */
+void   celd_search_add (CeldArrowSearch *search, size_t most);
+
+static inline bool
+celd_shaft_passes (const CeldArrowSearch *s, size_t shaft, size_t place)
+{
+  return s->passes[shaft * s->n_places + place];
+}
+
+/* ------------------------------------------------------------------ search-moves.c */
+
+/* Finds a choice that costs less than all that are near it. */
+CeldStatus celd_search_best (CeldArrowSearch *search);
+
+/* Improves what is near an option, without pairs. */
+void celd_search_improve_near (CeldArrowSearch *search, size_t option);
+
+/* Chooses again without arrows that end at a place (drop), or that pass it, and with bans of those meanwhile; false if
+ * there are none. */
+bool celd_search_force (CeldArrowSearch *search, size_t place, bool drop);
+
+/* Are the ends of two options at the same places, in the same direction? */
+bool celd_options_alike (const CeldArrowSearch *search, size_t a, size_t b);
+
+/* ------------------------------------------------------------------ search-margins.c */
+
+/* Of each chosen option: what the best choice without it costs more.  The choice may become better.  `margin` has room
+ * for CELD_MOST_CHOSEN. */
+void celd_search_margins_find (CeldArrowSearch *search, double *margin);
+
+/* ------------------------------------------------------------------ search-arrows.c */
+
+/* The arrows of lines->mask; the lines of lines->graph become theirs.  *arrows, which the caller frees in any case: one of
+ * each line; NULL: there may be too many, and the graph stays as it is. */
+CeldStatus celd_search_arrows_read (CeldJoinedLines *lines, CeldLineArrow **arrows);
+
+#endif

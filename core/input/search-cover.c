@@ -1,0 +1,275 @@
+/* What of the paint each arrow that may be chosen explains.
+ *
+ * The paint is divided into square cells of a fifth of its width.  A shaft explains those near its line; a head
+ * those near its barbs, or in its triangle; a dot those in a disc.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "base/base.h"
+#include "input/arrow-search.h"
+
+#include <math.h>
+
+/* All chosen; lengths are widths of the paint, costs square widths of it. */
+#define COVER_CELLS  5    /* in a width; none is smaller than a pixel */
+#define UNEXPLAINED  1.5  /* cost of paint that nothing explains, by area */
+#define BODY         0.58 /* from the middle of a line to the edge of its paint, ... */
+#define MORE_BODY    0.6  /* ... and pixels more */
+#define COVER_MARGIN 0.3  /* from the edge of a triangle to that of its paint, and as much more */
+#define ARROW_COST   1.5  /* of each arrow */
+#define SHAFT_COST   16   /* of what a shaft costs */
+#define BOW_COST     0.3  /* of a bow of this part of the length; of others by their square: */
+#define USUAL_BOW    0.06
+#define OPEN_BACK    3.2  /* from the tip to where the direction of a head is measured, if it is open, ... */
+#define FILLED_BACK  4    /* ... and if it is filled */
+
+/* Cells that are gathered for a piece; own: of each cell, is it of the shaft whose heads are looked for? */
+typedef struct { CeldArrowSearch *s; uint32_t *cell; size_t n; uint8_t *own; } Gather;
+
+static CeldPoint
+centre_of (const CeldArrowSearch *s, int x, int y)
+{
+  return (CeldPoint) { (x + 0.5) * s->step, (y + 0.5) * s->step };
+}
+
+CeldStatus
+celd_search_cells_new (CeldArrowSearch *s)
+{
+  size_t n;
+
+  s->step    = fmax (1, s->width / COVER_CELLS);
+  s->per_pixel = 1 / s->step;
+  s->area    = UNEXPLAINED * s->step * s->step / (s->width * s->width);
+  s->columns = (int) (s->mask->width / s->step) + 1;
+  s->rows    = (int) (s->mask->height / s->step) + 1;
+  n          = (size_t) s->columns * (size_t) s->rows;
+  s->painted = celd_alloc0 (n, sizeof *s->painted);
+  s->covers  = celd_alloc0 (n, sizeof *s->covers);
+  s->stamp   = celd_alloc0 (n, sizeof *s->stamp);
+  if (!s->painted || !s->covers || !s->stamp)
+    return CELD_NO_MEMORY;
+  for (int y = 0; y < s->rows; y++)
+    for (int x = 0; x < s->columns; x++)
+      s->painted[(size_t) y * (size_t) s->columns + (size_t) x] = celd_search_room (s, centre_of (s, x, y)) > 0;
+  return CELD_OK;
+}
+
+/* ------------------------------------------------------------------ outlines */
+
+/* How far a point is outside a triangle. */
+static double
+outside_triangle (CeldPoint p, const CeldPoint *corner)
+{
+  double area = (corner[1].x - corner[0].x) * (corner[2].y - corner[0].y) -
+                (corner[1].y - corner[0].y) * (corner[2].x - corner[0].x);
+  double nearest = INFINITY;
+  bool   inside = true;
+
+  for (int k = 0; k < 3; k++)
+    {
+      CeldPoint a = corner[k], b = corner[(k + 1) % 3];
+
+      inside &= ((b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x)) * area >= 0;
+      nearest = fmin (nearest, celd_distance_to_part (p, a, b));
+    }
+  return inside ? 0 : nearest;
+}
+
+/* Gathers the painted cells within a distance of the triangle of three corners, of the line of two, or of a point. */
+static void
+gather (Gather *g, const CeldPoint *corner, int n, double reach)
+{
+  CeldArrowSearch *s = g->s;
+  CeldPoint        low = corner[0], high = corner[0];
+
+  for (int k = 1; k < n; k++)
+    {
+      low  = (CeldPoint) { fmin (low.x, corner[k].x), fmin (low.y, corner[k].y) };
+      high = (CeldPoint) { fmax (high.x, corner[k].x), fmax (high.y, corner[k].y) };
+    }
+  for (int y = (int) fmax (0, (low.y - reach) / s->step); y <= fmin (s->rows - 1, (high.y + reach) / s->step); y++)
+    for (int x = (int) fmax (0, (low.x - reach) / s->step); x <= fmin (s->columns - 1, (high.x + reach) / s->step); x++)
+      {
+        size_t    c = (size_t) y * (size_t) s->columns + (size_t) x;
+        CeldPoint p = centre_of (s, x, y);
+
+        if (s->painted[c] && s->stamp[c] != s->tick &&
+            (n == 3 ? outside_triangle (p, corner) : celd_distance_to_part (p, corner[0], corner[n - 1])) <= reach)
+          {
+            s->stamp[c]     = s->tick;
+            g->cell[g->n++] = (uint32_t) c;
+          }
+      }
+}
+
+static CeldStatus
+piece_from (Gather *g, size_t *number)
+{
+  CeldPaintPiece  piece = { .cell = celd_alloc (g->n + 1, sizeof *piece.cell), .n = g->n, .bare = g->n };
+  CeldStatus status;
+
+  if (!piece.cell)
+    return CELD_NO_MEMORY;
+  memcpy (piece.cell, g->cell, g->n * sizeof *piece.cell);
+  *number = g->s->n_pieces;
+  status  = celd_append (g->s->piece, g->s->n_pieces, g->s->piece_capacity, piece);
+  if (status != CELD_OK)
+    celd_free (piece.cell);
+  return status;
+}
+
+static void
+start (Gather *g)
+{
+  g->s->tick++;
+  g->n = 0;
+}
+
+static CeldStatus
+shaft_piece (Gather *g, const CeldShaft *shaft, size_t *number)
+{
+  start (g);
+  for (size_t i = 1; i < shaft->n; i++)
+    gather (g, &shaft->at[i - 1], 2, BODY * g->s->width + MORE_BODY);
+  return piece_from (g, number);
+}
+
+static void
+gather_mark (Gather *g, const CeldHeadOutline *head, CeldPoint way)
+{
+  double w = g->s->width;
+
+  start (g);
+  if (head->kind == CELD_OUTLINE_DOT)
+    gather (g, &head->tip, 1, head->radius);
+  else if (head->kind == CELD_OUTLINE_FILLED)
+    gather (g, (CeldPoint[]) { celd_moved (head->tip, way, 0.4 * w), head->barb[0], head->barb[1] }, 3,
+            COVER_MARGIN * w + MORE_BODY);
+  else
+    for (int k = 0; k < 2; k++)
+      gather (g, (CeldPoint[]) { head->tip, head->barb[k] }, 2, BODY * w + MORE_BODY);
+}
+
+/* ------------------------------------------------------------------ options */
+
+static double
+shaft_cost (const CeldShaft *shaft)
+{
+  double bow = shaft->bow / USUAL_BOW;
+
+  return ARROW_COST + SHAFT_COST * shaft->cost + BOW_COST * bow * bow;
+}
+
+static CeldStatus
+add_option (CeldArrowSearch *s, size_t shaft, int end, double mark_cost, size_t body, size_t mark)
+{
+  double cost = shaft_cost (&s->shaft[shaft]) + mark_cost;
+
+  return celd_append (s->option, s->n_options, s->option_capacity,
+                      ((CeldArrowOption) { shaft, end, cost, mark_cost, body, mark }));
+}
+
+static void
+mark_own (Gather *g, size_t body, bool own)
+{
+  for (size_t i = 0; body < g->s->n_pieces && i < g->s->piece[body].n; i++)
+    g->own[g->s->piece[body].cell[i]] = own;
+}
+
+/* The options of a shaft with heads of both kinds at either end. */
+static CeldStatus
+add_heads (Gather *g, size_t k)
+{
+  CeldArrowSearch *s = g->s;
+  const CeldShaft *shaft = &s->shaft[k];
+  size_t           body = 0, mark = 0;
+  CeldStatus       status = shaft_piece (g, shaft, &body);
+
+  mark_own (g, body, status == CELD_OK);
+  for (int i = 0; i < 4 && status == CELD_OK; i++)
+    {
+      int             end = i / 2;
+      CeldPoint       way = celd_shaft_way (shaft, end, (i % 2 ? FILLED_BACK : OPEN_BACK) * s->width);
+      CeldHeadOutline head = celd_search_head_fit (s, i % 2 ? CELD_OUTLINE_FILLED : CELD_OUTLINE_OPEN,
+                                                   shaft->at[end ? shaft->n - 1 : 0], way, g->own);
+
+      gather_mark (g, &head, way);
+      status = piece_from (g, &mark);
+      if (status == CELD_OK)
+        status = add_option (s, k, end, head.cost, body, mark);
+    }
+  mark_own (g, body, false);
+  return status;
+}
+
+/* The options of all shafts with dots: that of place p is piece p, at a cost of cost[p]. */
+static CeldStatus
+add_dots (Gather *g, double *cost)
+{
+  CeldArrowSearch *s = g->s;
+  CeldStatus       status = CELD_OK;
+  size_t           body = 0;
+
+  for (size_t p = 0; p < s->n_places && status == CELD_OK; p++)
+    {
+      CeldHeadOutline dot = celd_search_dot_fit (s, s->place[p]);
+
+      cost[p] = dot.cost;
+      gather_mark (g, &dot, (CeldPoint) { 0, 0 });
+      status = piece_from (g, &body);
+    }
+  for (size_t k = 0; k < s->n_shafts && status == CELD_OK; k++)
+    {
+      status = shaft_piece (g, &s->shaft[k], &body);
+      for (int end = 0; end < 2 && status == CELD_OK; end++)
+        {
+          size_t place = s->shaft[k].place[end];
+
+          status = add_option (s, k, end, cost[place], body, place);
+        }
+    }
+  return status;
+}
+
+/* Lists the pieces of each cell. */
+static CeldStatus
+index_pieces (CeldArrowSearch *s)
+{
+  size_t n = (size_t) s->columns * (size_t) s->rows, all = 0;
+
+  s->first = celd_alloc0 (n + 2, sizeof *s->first);
+  for (size_t k = 0; k < s->n_pieces; k++)
+    all += s->piece[k].n;
+  s->piece_at = celd_alloc (all + 1, sizeof *s->piece_at);
+  if (!s->first || !s->piece_at)
+    return CELD_NO_MEMORY;
+  for (size_t k = 0; k < s->n_pieces; k++)
+    for (size_t i = 0; i < s->piece[k].n; i++)
+      s->first[s->piece[k].cell[i] + 2]++;
+  for (size_t c = 2; c < n + 2; c++)
+    s->first[c] += s->first[c - 1];
+  for (size_t k = 0; k < s->n_pieces; k++)
+    for (size_t i = 0; i < s->piece[k].n; i++)
+      s->piece_at[s->first[s->piece[k].cell[i] + 1]++] = (uint32_t) k;
+  return CELD_OK;
+}
+
+CeldStatus
+celd_search_options_new (CeldArrowSearch *s)
+{
+  size_t     n = (size_t) s->columns * (size_t) s->rows;
+  Gather     g = { .s = s, .cell = celd_alloc (n, sizeof *g.cell), .own = celd_alloc0 (n, sizeof *g.own) };
+  double    *cost = celd_alloc (s->n_places + 1, sizeof *cost);
+  CeldStatus status = g.cell && g.own && cost ? CELD_OK : CELD_NO_MEMORY;
+
+  if (status == CELD_OK && s->dot)
+    status = add_dots (&g, cost);
+  for (size_t k = 0; k < s->n_shafts && status == CELD_OK && !s->dot; k++)
+    status = add_heads (&g, k);
+  if (status == CELD_OK)
+    status = index_pieces (s);
+  celd_free (g.cell);
+  celd_free (g.own);
+  celd_free (cost);
+  return status;
+}

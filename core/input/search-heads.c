@@ -1,0 +1,246 @@
+/* Heads and dots that fit the paint near the end of a line.
+ *
+ * A head is two barbs (open), or the triangle of their ends and the tip (filled).  Each barb may have any direction
+ * and length that heads have; what is not painted costs, and what is painted beside the shaft is worth something.  Its
+ * tip may be a little off the place where the line should end.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "input/arrow-search.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/* All chosen; lengths are widths of the paint. */
+#define FIT_TIP_STEP  0.35 /* between places that are tried for a tip, ... */
+#define TIP_BEHIND    3    /* ... of which so many are behind where the line should end, ... */
+#define TIP_AHEAD     2    /* ... and so many ahead; one on either side; ... */
+#define TIP_TURN      0.1  /* ... and radians by which the head may be turned either way */
+#define OPEN_OFF      0.15 /* cost of each such step, of an open head, ... */
+#define FILLED_OFF    0.1  /* ... and of a filled one */
+#define OPEN_LEAST    0.36 /* radians from the shaft to a barb, at least, ... */
+#define OPEN_TURN     0.08 /* ... in such steps, ... */
+#define OPEN_TURNS    6    /* ... of which there are so many */
+#define OPEN_USUAL    2.6  /* of those steps; ... */
+#define OPEN_UNUSUAL  0.02 /* ... and what each step costs */
+#define OPEN_STEP     0.25 /* along a barb, ... */
+#define OPEN_STEPS    19   /* ... of which there are at most so many */
+#define OPEN_LENGTH   3    /* of a barb, at least */
+#define OPEN_ROOM     0.22 /* from a barb to the edge of its paint, and a third of a pixel less */
+#define OPEN_WORTH    0.5  /* of a barb beside the shaft, by its length */
+#define FILLED_LEAST  0.42 /* as for open heads */
+#define FILLED_TURN   0.09
+#define FILLED_TURNS  4
+#define FILLED_LENGTH 2.9  /* of the sides, at least, ... */
+#define FILLED_LONGER 0.6  /* ... and in such steps, ... */
+#define FILLED_STEPS  4    /* ... of which there are so many */
+#define FILLED_AHEAD  0.4  /* from where a line ends to the tip of the triangle */
+#define FILLED_BARE   2    /* cost of what is not painted while heads are compared */
+#define FIT_SAMPLES   8    /* of a side of a triangle */
+#define BARE          1.5  /* cost of what is not painted, by area */
+#define FIT_OFF       0.2  /* cost of a tip that is off its place, by the distance */
+#define DOT_STEP      0.25 /* between places that are tried for the centre of a dot, ... */
+#define DOT_STEPS     2    /* ... of which so many are on either side */
+#define FIT_DOT_LEAST 1.1  /* radius of a dot, at least, ... */
+#define DOT_MOST      1.9  /* ... and at most */
+#define FIT_DOT_MORE  0.2  /* ... and more that its paint has */
+#define DOT_OFF       0.05
+
+static bool
+is_beside (const CeldArrowSearch *s, CeldPoint p, const uint8_t *shaft)
+{
+  size_t cell = celd_search_cell (s, p);
+
+  return !shaft || (cell != SIZE_MAX && !shaft[cell]);
+}
+
+static CeldPoint
+direction (double angle)
+{
+  return (CeldPoint) { cos (angle), sin (angle) };
+}
+
+/* How far a barb is painted, in widths, and how much of that is beside the shaft. */
+static double
+painted_length (const CeldArrowSearch *s, CeldPoint tip, CeldPoint way, const uint8_t *shaft, double *beside)
+{
+  double run = 0;
+  int    gap = 0;
+
+  *beside = 0;
+  for (int i = 1; i <= OPEN_STEPS; i++)
+    {
+      CeldPoint p = celd_moved (tip, way, i * OPEN_STEP * s->width);
+
+      if (celd_search_room (s, p) < OPEN_ROOM * s->width - 0.3)
+        {
+          if (++gap > 1)
+            break;
+          continue;
+        }
+      gap      = 0;
+      run      = i * OPEN_STEP;
+      *beside += is_beside (s, p, shaft) ? OPEN_STEP : 0;
+    }
+  return run;
+}
+
+/* The best barb of an open head on one side: its end; *bare: what is not painted.  Returns what it costs. */
+static double
+fit_open (const CeldArrowSearch *s, CeldPoint tip, double angle, int side, const uint8_t *shaft, CeldPoint *end,
+          double *bare)
+{
+  double best = INFINITY;
+
+  for (int k = 0; k < OPEN_TURNS; k++)
+    {
+      CeldPoint way = direction (angle + CELD_PI + side * (OPEN_LEAST + OPEN_TURN * k));
+      double    beside, run = painted_length (s, tip, way, shaft, &beside), missing = fmax (0, OPEN_LENGTH - run);
+      double    cost = BARE * missing - OPEN_WORTH * beside + OPEN_UNUSUAL * fabs (k - OPEN_USUAL);
+
+      if (cost < best)
+        {
+          best  = cost;
+          *bare = missing;
+          *end  = celd_moved (tip, way, run * s->width);
+        }
+    }
+  return best;
+}
+
+/* The part of a triangle that is not painted, and the part that is painted beside the shaft. */
+static void
+sample_triangle (const CeldArrowSearch *s, CeldPoint a, CeldPoint b, CeldPoint c, const uint8_t *shaft, double *bare,
+                 double *beside)
+{
+  int all = 0, n_bare = 0, n_beside = 0;
+
+  for (int i = 0; i < FIT_SAMPLES; i++)
+    for (int k = 0; k < FIT_SAMPLES - i; k++)
+      {
+        double    u = (i + 0.33) / FIT_SAMPLES, v = (k + 0.33) / FIT_SAMPLES;
+        CeldPoint p = { a.x + u * (b.x - a.x) + v * (c.x - a.x), a.y + u * (b.y - a.y) + v * (c.y - a.y) };
+        bool      painted = celd_search_room (s, p) > 0;
+
+        all++;
+        n_bare   += !painted;
+        n_beside += painted && is_beside (s, p, shaft);
+      }
+  *bare   = (double) n_bare / all;
+  *beside = (double) n_beside / all;
+}
+
+/* The same for the half of a filled head on one side of its axis. */
+static double
+fit_filled (const CeldArrowSearch *s, CeldPoint tip, CeldPoint ahead, double angle, int side, const uint8_t *shaft,
+            CeldPoint *end, double *bare)
+{
+  double best = INFINITY, w = s->width;
+
+  for (int k = 0; k < FILLED_TURNS; k++)
+    for (int l = 0; l < FILLED_STEPS; l++)
+      {
+        double    turn = FILLED_LEAST + FILLED_TURN * k, length = (FILLED_LENGTH + FILLED_LONGER * l) * w;
+        CeldPoint corner = celd_moved (tip, direction (angle + CELD_PI + side * turn), length);
+        CeldPoint back = celd_moved (tip, direction (angle + CELD_PI), length * cos (turn));
+        double    area = fabs ((corner.x - ahead.x) * (back.y - ahead.y) - (corner.y - ahead.y) * (back.x - ahead.x));
+        double    missing, beside, cost;
+
+        sample_triangle (s, ahead, corner, back, shaft, &missing, &beside);
+        area /= 2 * w * w;
+        cost  = area * (FILLED_BARE * missing - beside);
+        if (cost < best)
+          {
+            best  = cost;
+            *bare = area * missing;
+            *end  = corner;
+          }
+      }
+  return best;
+}
+
+CeldHeadOutline
+celd_search_head_fit (const CeldArrowSearch *s, CeldOutlineKind kind, CeldPoint place, CeldPoint way,
+                      const uint8_t *shaft)
+{
+  bool            filled = kind == CELD_OUTLINE_FILLED;
+  double          w = s->width, angle = atan2 (way.y, way.x), best = INFINITY;
+  CeldPoint       across = { -way.y, way.x };
+  CeldHeadOutline head = { .kind = kind };
+
+  for (int turn = -1; turn <= 1; turn++)
+    for (int on = -TIP_BEHIND; on <= TIP_AHEAD; on++)
+      for (int off = -1; off <= 1; off++)
+        {
+          CeldPoint on_axis = celd_moved (place, way, on * FIT_TIP_STEP * w), end[2];
+          CeldPoint tip = celd_moved (on_axis, across, off * FIT_TIP_STEP * w);
+          CeldPoint ahead = celd_moved (tip, way, FILLED_AHEAD * w);
+          double    bare[2], cost = (filled ? FILLED_OFF : OPEN_OFF) * (abs (turn) + abs (on) + abs (off));
+
+          for (int k = 0; k < 2; k++)
+            cost += filled ? fit_filled (s, tip, ahead, angle + turn * TIP_TURN, 1 - 2 * k, shaft, &end[k], &bare[k])
+                           : fit_open (s, tip, angle + turn * TIP_TURN, 1 - 2 * k, shaft, &end[k], &bare[k]);
+          if (cost < best)
+            {
+              double apart = FIT_OFF * celd_points_apart (tip, place) / w;
+
+              best = cost;
+              head = (CeldHeadOutline) { kind, tip, { end[0], end[1] }, 0, BARE * (bare[0] + bare[1]) };
+              head.cost += filled ? BARE * apart : apart;
+            }
+        }
+  return head;
+}
+
+/* The part of a disc that is not painted. */
+static double
+bare_disc (const CeldArrowSearch *s, CeldPoint centre, double radius)
+{
+  int all = 0, bare = 0, n = 6;
+
+  for (int y = -n; y <= n; y++)
+    for (int x = -n; x <= n; x++)
+      if (x * x + y * y <= n * n)
+        {
+          all++;
+          bare += celd_search_room (s, (CeldPoint) { centre.x + x * radius / n, centre.y + y * radius / n }) <= 0;
+        }
+  return (double) bare / all;
+}
+
+/* Is most of a circle painted? */
+static bool
+is_circle_painted (const CeldArrowSearch *s, CeldPoint centre, double radius)
+{
+  int bare = 0, n = 24;
+
+  for (int i = 0; i < n; i++)
+    bare += celd_search_room (s, celd_moved (centre, direction (2 * CELD_PI * i / n), radius)) <= 0;
+  return bare <= n / 3;
+}
+
+CeldHeadOutline
+celd_search_dot_fit (const CeldArrowSearch *s, CeldPoint place)
+{
+  double          w = s->width, best = INFINITY, radius = FIT_DOT_LEAST;
+  CeldHeadOutline dot = { .kind = CELD_OUTLINE_DOT, .tip = place };
+
+  for (int x = -DOT_STEPS; x <= DOT_STEPS; x++)
+    for (int y = -DOT_STEPS; y <= DOT_STEPS; y++)
+      {
+        CeldPoint centre = { place.x + x * DOT_STEP * w, place.y + y * DOT_STEP * w };
+        double    cost = CELD_PI * FIT_DOT_LEAST * FIT_DOT_LEAST * bare_disc (s, centre, FIT_DOT_LEAST * w) +
+                         DOT_OFF * hypot (x, y);
+
+        if (cost < best)
+          {
+            best    = cost;
+            dot.tip = centre;
+          }
+      }
+  while (radius < DOT_MOST && is_circle_painted (s, dot.tip, radius * w))
+    radius += 0.1;
+  dot.radius = (radius + FIT_DOT_MORE) * w;
+  dot.cost   = BARE * best;
+  return dot;
+}

@@ -1,0 +1,436 @@
+/* Places where arrows that share ends may begin or end.
+ *
+ * The ends of traced lines are led on straight: where several meet, and at the tips of heads that fit there, arrows
+ * may end.  Others may at free ends of the paint, at corners, behind wide places, and where there is a dot.  Too many
+ * places do no harm but take time; of places near each other the first is kept.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "base/base.h"
+#include "input/arrow-search.h"
+
+#include <math.h>
+
+/* All chosen; lengths are widths of the paint. */
+#define PLACE_APART    0.9   /* between places, at least */
+#define PLACE_ROUGH    1.2   /* length of a rough edge, and a pixel */
+#define STUB           1.8   /* length of a line that has a direction */
+#define BARB           2.5   /* length of a line that shows where others meet */
+#define LONG           5     /* length of a line that is no barb */
+#define PLACE_NEAR_END 1.5   /* from the end of a line where its direction is measured, ... */
+#define PLACE_FAR_END  4.5   /* ... to here */
+#define PLACE_MOST_LED 6     /* by which lines are led on to where they meet */
+#define LEAST_TURN     0.3   /* sine of the angle at which lines meet, at least */
+#define CLUSTER        0.8   /* radius of places that are one */
+#define LEAST_VOTES    0.6   /* of a place where lines meet */
+#define HEAD_LED       8     /* by which lines are led on to the tips of heads, ... */
+#define HEAD_STEP      1.4   /* ... in such steps */
+#define HEAD_COST      0.7   /* of a head that fits */
+#define HEAD_VOTES     1.5   /* of one that costs nothing */
+#define FAT            0.6   /* distance from the edge of the paint inside a filled head */
+#define PLACE_CORNER   0.45  /* radians by which a line turns at a corner, ... */
+#define CORNER_SIDE    2.5   /* ... over so long sides */
+#define PLACE_WIDE     0.75  /* distance from the edge at a wide place, ... */
+#define NARROW         0.5   /* ... and behind it */
+#define PLACE_BLOB     0.66  /* distance from the edge in the middle of a dot */
+#define MOST_ARMS      600   /* ends of lines that are led on: more are a drawing */
+#define MOST_MEET      40000 /* places where they meet */
+
+/* The end of a traced line, and its direction outwards. */
+typedef struct { CeldPoint at, way; double length; size_t line; int end; } Arm;
+typedef struct { CeldPoint at; double weight, votes; } Meeting;
+
+typedef struct
+{
+  CeldArrowSearch *s;
+  CeldStrokeGraph  raw;
+  int             *degree; /* of each node */
+  Arm             *arm;
+  size_t           n_arms, arm_capacity;
+  Meeting         *meeting;
+  size_t           n_meetings, meeting_capacity;
+} PlaceBuild;
+
+static CeldStatus
+add_place (PlaceBuild *b, CeldPoint p)
+{
+  CeldArrowSearch *s = b->s;
+
+  if (!(p.x >= 0 && p.y >= 0 && p.x < s->mask->width && p.y < s->mask->height))
+    return CELD_OK;
+  for (size_t i = 0; i < s->n_places; i++)
+    if (celd_points_apart (s->place[i], p) < PLACE_APART * s->width)
+      return CELD_OK;
+  return celd_append (s->place, s->n_places, s->place_capacity, p);
+}
+
+/* ------------------------------------------------------------------ ends of lines */
+
+static CeldPoint
+point_from (const CeldStrokeLine *line, int end, size_t i)
+{
+  return line->at[end ? line->n - 1 - i : i];
+}
+
+static CeldStatus
+find_arms (PlaceBuild *b)
+{
+  double     w = b->s->width;
+  CeldStatus status = CELD_OK;
+
+  for (size_t i = 0; i < 2 * b->raw.n_lines && b->n_arms < MOST_ARMS && status == CELD_OK; i++)
+    {
+      const CeldStrokeLine *line = &b->raw.line[i / 2];
+      int                   end = (int) (i % 2);
+      double                length = celd_stroke_line_length (line), d;
+      CeldPoint             p, q;
+
+      b->degree[line->node[end]]++;
+      if (length < STUB * w)
+        continue;
+      p = point_from (line, end, (size_t) fmin (PLACE_NEAR_END * w, 0.25 * (double) line->n));
+      q = point_from (line, end, (size_t) fmin (PLACE_FAR_END * w + 2, 0.8 * (double) line->n));
+      d = celd_points_apart (p, q);
+      if (d >= 0.7 * w)
+        status = celd_append (b->arm, b->n_arms, b->arm_capacity,
+                              ((Arm) { p, { (p.x - q.x) / d, (p.y - q.y) / d }, length, i / 2, end }));
+    }
+  return status;
+}
+
+/* The only line but rough edges that ends where an end of line k is, too; SIZE_MAX = there is none, or there are
+ * several.  *free: is there nothing but rough edges? */
+static size_t
+line_beyond (const PlaceBuild *b, size_t k, int end, bool *free)
+{
+  int    node = b->raw.line[k].node[end];
+  size_t other = SIZE_MAX;
+  int    n = 0;
+
+  for (size_t i = 0; i < 2 * b->raw.n_lines; i++)
+    {
+      const CeldStrokeLine *line = &b->raw.line[i / 2];
+
+      if (i / 2 == k || line->node[i % 2] != node ||
+          (celd_stroke_line_length (line) <= PLACE_ROUGH * b->s->width + 1 && b->degree[line->node[1 - i % 2]] == 1))
+        continue;
+      other = i / 2;
+      n++;
+    }
+  *free = !n;
+  return n == 1 ? other : SIZE_MAX;
+}
+
+/* Does a line end freely, but for rough edges?  *length: of it and of the line beyond, if just one is there. */
+static bool
+is_free (const PlaceBuild *b, const Arm *arm, double *length)
+{
+  bool   free, free_beyond;
+  size_t beyond;
+
+  line_beyond (b, arm->line, arm->end, &free);
+  beyond  = line_beyond (b, arm->line, 1 - arm->end, &free_beyond);
+  *length = arm->length + (beyond == SIZE_MAX ? 0 : celd_stroke_line_length (&b->raw.line[beyond]));
+  return free;
+}
+
+/* Does the paint of a short line go on straight beyond its other end?  Then it crosses something there. */
+static bool
+goes_on (const PlaceBuild *b, const Arm *arm)
+{
+  double w = b->s->width;
+
+  if (b->degree[b->raw.line[arm->line].node[1 - arm->end]] == 1)
+    return true;
+  for (size_t i = 0; i < b->n_arms; i++)
+    if (b->arm[i].line == arm->line && b->arm[i].end != arm->end)
+      {
+        double d = 0;
+
+        while (d < 4 * w && celd_search_room (b->s, celd_moved (b->arm[i].at, b->arm[i].way, d)) > 0)
+          d += 0.5 * w;
+        return d >= 4 * w;
+      }
+  return false;
+}
+
+static CeldStatus
+add_free_ends (PlaceBuild *b)
+{
+  double     w = b->s->width;
+  CeldStatus status = CELD_OK;
+
+  for (size_t i = 0; i < b->n_arms && status == CELD_OK; i++)
+    {
+      const Arm *arm = &b->arm[i];
+      bool       fat = !b->s->dot && celd_search_room (b->s, b->raw.node[b->raw.line[arm->line].node[arm->end]].at) >
+                                       FAT * w;
+      double     d = 0, length;
+
+      if (!is_free (b, arm, &length) || (length < LONG * w && !fat && !goes_on (b, arm)))
+        continue;
+      while (celd_search_room (b->s, celd_moved (arm->at, arm->way, d + 1)) > 0)
+        d++;
+      status = add_place (b, celd_moved (arm->at, arm->way, fmax (0, d - 0.5 * w)));
+    }
+  return status;
+}
+
+/* ------------------------------------------------------------------ where lines meet */
+
+static CeldStatus
+add_meeting (PlaceBuild *b, CeldPoint at, double weight)
+{
+  return b->n_meetings < MOST_MEET ? celd_append (b->meeting, b->n_meetings, b->meeting_capacity,
+                                                  ((Meeting) { at, weight, 0 })) : CELD_OK;
+}
+
+/* Where two lines meet that are led on. */
+static CeldStatus
+meet (PlaceBuild *b, const Arm *p, const Arm *q)
+{
+  double    w = b->s->width, cross = p->way.x * q->way.y - p->way.y * q->way.x, along[2];
+  CeldPoint off = { q->at.x - p->at.x, q->at.y - p->at.y }, at;
+
+  if (fmin (p->length, q->length) < BARB * w || fmax (p->length, q->length) < LONG * w || fabs (cross) < LEAST_TURN ||
+      (p->line == q->line && p->length < 8 * w) || hypot (off.x, off.y) > 10 * w)
+    return CELD_OK;
+  along[0] = (off.x * q->way.y - off.y * q->way.x) / cross;
+  along[1] = (off.x * p->way.y - off.y * p->way.x) / cross;
+  at       = celd_moved (p->at, p->way, along[0]);
+  if (fmin (along[0], along[1]) < -PLACE_NEAR_END * w || fmax (along[0], along[1]) > PLACE_MOST_LED * w ||
+      celd_search_room (b->s, at) < 0.2 * w)
+    return CELD_OK;
+  return add_meeting (b, at, fabs (cross) * (p->length > 6 * w ? 1 : 0.5) * (q->length > 6 * w ? 1 : 0.5));
+}
+
+/* The tips of heads that fit where a line is led on. */
+static CeldStatus
+find_tips (PlaceBuild *b, const Arm *arm)
+{
+  double     w = b->s->width;
+  CeldStatus status = CELD_OK;
+
+  for (double d = 0; d < HEAD_LED * w && status == CELD_OK; d += HEAD_STEP * w)
+    {
+      CeldPoint p = celd_moved (arm->at, arm->way, d);
+
+      if (celd_search_room (b->s, p) <= 0 && d > 2 * w)
+        break;
+      for (int kind = CELD_OUTLINE_OPEN; kind <= CELD_OUTLINE_FILLED && status == CELD_OK; kind++)
+        {
+          CeldHeadOutline head = celd_search_head_fit (b->s, (CeldOutlineKind) kind, p, arm->way, NULL);
+
+          if (head.cost < HEAD_COST)
+            status = add_meeting (b, head.tip, HEAD_VOTES * (1 - head.cost));
+        }
+    }
+  return status;
+}
+
+static double
+share (const PlaceBuild *b, const Meeting *one, const Meeting *other)
+{
+  return other->weight * fmax (0, 1 - celd_points_apart (one->at, other->at) / (CLUSTER * b->s->width));
+}
+
+/* Adds the places where most lines meet, from the most on. */
+static CeldStatus
+add_meetings (PlaceBuild *b)
+{
+  CeldStatus status = CELD_OK;
+
+  for (size_t i = 0; i < b->n_meetings; i++)
+    for (size_t k = 0; k < b->n_meetings; k++)
+      b->meeting[i].votes += share (b, &b->meeting[i], &b->meeting[k]);
+  while (status == CELD_OK)
+    {
+      const Meeting *best = NULL;
+      CeldPoint      mean = { 0, 0 }, centre;
+      double         sum = 0;
+
+      for (size_t i = 0; i < b->n_meetings; i++)
+        if (b->meeting[i].votes >= (best ? best->votes : LEAST_VOTES) && (!best || b->meeting[i].votes > best->votes))
+          best = &b->meeting[i];
+      if (!best)
+        break;
+      centre = best->at;
+      for (size_t i = 0; i < b->n_meetings; i++)
+        {
+          double weight = share (b, best, &b->meeting[i]);
+
+          sum    += weight;
+          mean.x += weight * b->meeting[i].at.x;
+          mean.y += weight * b->meeting[i].at.y;
+        }
+      status = add_place (b, (CeldPoint) { mean.x / sum, mean.y / sum });
+      for (size_t i = 0; i < b->n_meetings; i++)
+        if (celd_points_apart (b->meeting[i].at, centre) < CLUSTER * b->s->width)
+          b->meeting[i].votes = 0;
+    }
+  return status;
+}
+
+/* ------------------------------------------------------------------ along lines */
+
+/* Behind the wide places that lines lead to: the tips of filled heads from which others go on. */
+static CeldStatus
+add_narrows (PlaceBuild *b)
+{
+  double     w = b->s->width;
+  CeldStatus status = CELD_OK;
+
+  for (size_t i = 0; i < b->n_arms && status == CELD_OK; i++)
+    {
+      const Arm *arm = &b->arm[i];
+      CeldPoint  across = { -0.25 * arm->way.y, 0.25 * arm->way.x };
+      double     most = 0;
+
+      for (double d = 0; d < HEAD_LED * w && arm->length > 4.5 * w; d += 0.1 * w)
+        {
+          CeldPoint p = celd_moved (arm->at, arm->way, d);
+          double    room = 0;
+
+          for (int k = -2; k <= 2; k++)
+            room = fmax (room, celd_search_room (b->s, celd_moved (p, across, k * w)));
+          most = fmax (most, room);
+          if (most > PLACE_WIDE * w && room <= NARROW * w)
+            status = add_place (b, p);
+          if ((most > PLACE_WIDE * w && room <= NARROW * w) || room <= 0)
+            break;
+        }
+    }
+  return status;
+}
+
+static double
+turn_at (const CeldStrokeLine *line, size_t i, size_t reach)
+{
+  CeldPoint a = line->at[i - reach], p = line->at[i], c = line->at[i + reach];
+  CeldPoint u = { p.x - a.x, p.y - a.y }, v = { c.x - p.x, c.y - p.y };
+
+  return fabs (atan2 (u.x * v.y - u.y * v.x, u.x * v.x + u.y * v.y));
+}
+
+/* Where the sides of a corner meet. */
+static CeldPoint
+corner_of (const PlaceBuild *b, const CeldStrokeLine *line, size_t i, size_t reach)
+{
+  CeldLineSums sums = { 0 };
+  CeldPoint    place;
+
+  for (int side = 0; side < 2; side++)
+    {
+      CeldPoint from = line->at[side ? i + reach : i - reach], to = line->at[side ? i + reach / 4 : i - reach / 4];
+      double    d = celd_points_apart (from, to);
+
+      if (d > 0)
+        celd_line_sums_add (&sums, from, (CeldPoint) { (to.x - from.x) / d, (to.y - from.y) / d }, 1);
+    }
+  place = celd_line_sums_point (&sums, line->at[i]);
+  return celd_points_apart (place, line->at[i]) > 1.5 * b->s->width ? line->at[i] : place;
+}
+
+static CeldStatus
+add_corners (PlaceBuild *b, const CeldStrokeLine *line)
+{
+  size_t     reach = (size_t) (CORNER_SIDE * b->s->width + 2), best = 0;
+  double     most = PLACE_CORNER;
+  CeldStatus status = CELD_OK;
+
+  for (size_t i = reach; i + reach < line->n && status == CELD_OK; i++)
+    {
+      double turn = turn_at (line, i, reach);
+
+      if (turn > most)
+        {
+          most = turn;
+          best = i;
+        }
+      if (best && (i > best + reach || i + reach + 1 == line->n))
+        {
+          status = add_place (b, corner_of (b, line, best, reach));
+          most   = PLACE_CORNER;
+          best   = 0;
+          i     += reach / 2;
+        }
+    }
+  return status;
+}
+
+/* The middles of wide places of a line. */
+static CeldStatus
+add_blobs (PlaceBuild *b, const CeldStrokeLine *line)
+{
+  size_t     reach = (size_t) (1.5 * b->s->width + 1);
+  CeldStatus status = CELD_OK;
+
+  for (size_t i = 0; i < line->n && status == CELD_OK; i++)
+    {
+      double room = celd_search_room (b->s, line->at[i]);
+      bool   most = room >= PLACE_BLOB * b->s->width;
+
+      for (size_t k = i > reach ? i - reach : 0; k <= i + reach && k < line->n && most; k++)
+        {
+          double other = celd_search_room (b->s, line->at[k]);
+
+          most = other < room || (other <= room && k >= i);
+        }
+      if (most)
+        status = add_place (b, line->at[i]);
+    }
+  return status;
+}
+
+/* ------------------------------------------------------------------ all places */
+
+static CeldStatus
+find_meetings (PlaceBuild *b)
+{
+  CeldStatus status = CELD_OK;
+
+  for (size_t i = 0; i < b->n_arms; i++)
+    for (size_t k = i + 1; k < b->n_arms && status == CELD_OK; k++)
+      status = meet (b, &b->arm[i], &b->arm[k]);
+  for (size_t i = 0; i < b->n_arms && status == CELD_OK && !b->s->dot; i++)
+    if (b->arm[i].length > 4 * b->s->width)
+      status = find_tips (b, &b->arm[i]);
+  return status;
+}
+
+static CeldStatus
+find_places (PlaceBuild *b)
+{
+  CeldStatus status = find_arms (b);
+
+  for (size_t k = 0; k < b->raw.n_lines && status == CELD_OK && b->s->dot; k++)
+    status = add_blobs (b, &b->raw.line[k]);
+  if (status == CELD_OK)
+    status = find_meetings (b);
+  if (status == CELD_OK)
+    status = add_meetings (b);
+  if (status == CELD_OK)
+    status = add_free_ends (b);
+  if (status == CELD_OK && !b->s->dot)
+    status = add_narrows (b);
+  for (size_t k = 0; k < b->raw.n_lines && status == CELD_OK; k++)
+    status = add_corners (b, &b->raw.line[k]);
+  return status;
+}
+
+CeldStatus
+celd_search_places_find (CeldArrowSearch *search)
+{
+  PlaceBuild      b = { .s = search };
+  CeldStatus status = celd_stroke_trace (search->mask, &b.raw);
+
+  if (status == CELD_OK && !(b.degree = celd_alloc0 (b.raw.n_nodes + 1, sizeof *b.degree)))
+    status = CELD_NO_MEMORY;
+  if (status == CELD_OK)
+    status = find_places (&b);
+  celd_free (b.degree);
+  celd_free (b.arm);
+  celd_free (b.meeting);
+  celd_stroke_graph_clear (&b.raw);
+  return status;
+}
