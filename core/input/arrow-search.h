@@ -164,8 +164,8 @@ void celd_search_margins_find (CeldArrowSearch *search, double *margin);
 
 /* ------------------------------------------------------------------ search-arrows.c */
 
-/* The arrows of lines->mask; the lines of lines->graph become theirs.  *arrows, which the caller frees in any case: one of
- * each line; NULL: there may be too many, and the graph stays as it is. */
-CeldStatus celd_search_arrows_read (CeldJoinedLines *lines, CeldLineArrow **arrows);
+/* The arrows of lines->mask, and a graph whose lines they are; the caller clears and frees both in any case.  *arrows is
+ * NULL if there may be too many. */
+CeldStatus celd_search_arrows_read (const CeldJoinedLines *lines, CeldStrokeGraph *graph, CeldLineArrow **arrows);
 
 #endif

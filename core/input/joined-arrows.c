@@ -113,17 +113,44 @@ tell (const CeldJoinedLines *s, const CeldLineArrow *arrows, bool crack, CeldRel
   return status;
 }
 
-/* Reads lines with heads by the choice of arrows that explains all paint; those with dots, and those of which others hide
- * some paint or which are too many for that, by what is at nodes. */
+/* How many arrows are clear, and long enough. */
+static size_t
+count_clear (const CeldJoinedLines *s, const CeldLineArrow *arrows)
+{
+  size_t n = 0;
+
+  for (size_t k = 0; k < s->graph.n_lines; k++)
+    n += is_long (s, k) && arrows[k].first == k && !arrows[k].unclear;
+  return n;
+}
+
+/* Reads lines with heads also by the choice of arrows that explains all paint, unless others hide some of it.  The way
+ * that finds more clear arrows counts; lines become those of its graph. */
 static CeldStatus
 read_marks (CeldJoinedLines *s, CeldLineArrow **arrows)
 {
-  CeldStatus status = CELD_OK;
+  CeldJoinedLines other = *s;
+  CeldLineArrow  *found = NULL;
+  CeldStatus      status = celd_joined_heads_read (s, arrows);
 
-  *arrows = NULL;
-  if (s->style == CELD_ARROW_HEAD && !s->cover)
-    status = celd_search_arrows_read (s, arrows);
-  return status == CELD_OK && !*arrows ? celd_joined_heads_read (s, arrows) : status;
+  if (status != CELD_OK || s->style != CELD_ARROW_HEAD || s->cover)
+    return status;
+  status = celd_search_arrows_read (s, &other.graph, &found);
+  if (status == CELD_OK && found && count_clear (&other, found) > count_clear (s, *arrows))
+    {
+      CeldStrokeGraph graph = s->graph;
+      CeldLineArrow  *before = *arrows;
+
+      celd_free (s->lead); /* of the graph before */
+      s->lead     = NULL;
+      s->graph    = other.graph;
+      *arrows     = found;
+      other.graph = graph;
+      found       = before;
+    }
+  celd_stroke_graph_clear (&other.graph);
+  celd_free (found);
+  return status;
 }
 
 /* Reads all lines.  *n: arrows; fewer than two are none, because a single stroke that is unclear stays so, unless some

@@ -24,7 +24,7 @@
 #define REST_ROOM          0.22 /* so far from the edge of the paint, because the width of lines varies, ... */
 #define REST_REACH         1.5  /* ... so near the line, ... */
 #define REST_ENDS          3.5  /* ... or so near its ends */
-#define ARROW_LEAST_OWN    0.8  /* area of the paint of a head that no line explains, if it shows where arrows end */
+#define ARROW_LEAST_OWN    0.8  /* area of the paint of a head that no line explains */
 #define ARROW_STRAIGHT     0.6  /* radians by which arrows turn that may go on */
 #define ARROW_PASS_TURN    0.45 /* the same where one of several arrows may pass */
 #define WAY_FROM           5    /* from the end of a line to where its direction is measured */
@@ -38,7 +38,7 @@
 #define MOST_OF_HEAD       1.2  /* ... of its head, ... */
 #define MOST_OF_DOT        0.5  /* ... and of its dot */
 
-typedef struct { CeldArrowSearch *s; const CeldJoinedLines *lines; double *margin, *own; } ArrowReading;
+typedef struct { CeldArrowSearch *s; const CeldJoinedLines *lines; double *margin, *own, *seen; } ArrowReading;
 
 static void
 search_clear (CeldArrowSearch *s)
@@ -110,7 +110,8 @@ find_choice (CeldArrowSearch *s, double *margin)
 
 /* ------------------------------------------------------------------ what is clear */
 
-/* Finds of each chosen arrow the area of its head or dot that no line and no other head explains; arrows share dots. */
+/* Finds of each chosen arrow the area of its head or dot that no line explains (seen), and of that what no other head does
+ * (own); arrows share dots. */
 static CeldStatus
 find_own (ArrowReading *r)
 {
@@ -131,8 +132,11 @@ find_own (ArrowReading *r)
 
             if (!pass)
               marks[c]++;
-            else if (s->covers[c] == marks[c] && (s->dot || marks[c] == 1))
-              r->own[i] += area;
+            else if (s->covers[c] == marks[c])
+              {
+                r->seen[i] += area;
+                r->own[i] += s->dot || marks[c] == 1 ? area : 0;
+              }
           }
       }
   celd_free (marks);
@@ -365,7 +369,7 @@ why_unclear (const ArrowReading *r, size_t i)
 
   if (shaft->length < SHORTEST * s->width)
     return CELD_REASON_SHORT;
-  if (is_double (r, i) || o->mark_cost > (s->dot ? MOST_OF_DOT : MOST_OF_HEAD))
+  if (is_double (r, i) || r->seen[i] < ARROW_LEAST_OWN || o->mark_cost > (s->dot ? MOST_OF_DOT : MOST_OF_HEAD))
     return CELD_REASON_ALIKE;
   if (r->margin[i] < ARROW_CLEAR_MARGIN || s->passed[o->shaft] || o->cost > MOST_OF_ARROW ||
       rest_round (s, shaft) > (s->dot ? DOT_MOST_REST : ARROW_MOST_REST))
@@ -430,27 +434,26 @@ read_choice (ArrowReading *r, CeldStrokeGraph *graph, CeldLineArrow *arrows)
 }
 
 CeldStatus
-celd_search_arrows_read (CeldJoinedLines *lines, CeldLineArrow **arrows)
+celd_search_arrows_read (const CeldJoinedLines *lines, CeldStrokeGraph *graph, CeldLineArrow **arrows)
 {
   CeldArrowSearch s = { .mask = &lines->mask, .width = lines->graph.width, .dot = lines->style == CELD_ARROW_DOT };
-  CeldStrokeGraph graph = { .width = lines->graph.width };
   bool            many = false;
   ArrowReading    r = {
     .s = &s, .lines = lines, .margin = celd_alloc0 (CELD_MOST_CHOSEN, sizeof *r.margin),
-    .own = celd_alloc0 (CELD_MOST_CHOSEN, sizeof *r.own),
+    .own = celd_alloc0 (CELD_MOST_CHOSEN, sizeof *r.own), .seen = celd_alloc0 (CELD_MOST_CHOSEN, sizeof *r.seen),
   };
-  CeldStatus      status = r.margin && r.own ? find_shafts (&s, &many) : CELD_NO_MEMORY;
+  CeldStatus      status = r.margin && r.own && r.seen ? find_shafts (&s, &many) : CELD_NO_MEMORY;
 
   *arrows = NULL;
+  *graph  = (CeldStrokeGraph) { .width = lines->graph.width };
   if (status == CELD_OK && !many)
     {
       *arrows = celd_alloc0 (CELD_MOST_CHOSEN, sizeof **arrows);
-      status  = *arrows ? read_choice (&r, &graph, *arrows) : CELD_NO_MEMORY;
-      celd_stroke_graph_clear (&lines->graph);
-      lines->graph = graph;
+      status  = *arrows ? read_choice (&r, graph, *arrows) : CELD_NO_MEMORY;
     }
   celd_free (r.margin);
   celd_free (r.own);
+  celd_free (r.seen);
   search_clear (&s);
   return status;
 }
