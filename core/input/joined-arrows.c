@@ -1,9 +1,11 @@
 /* Arrows of one colour that share ends: several from one point, several to one point, or one behind the other.
  *
- * Those with heads are read by the choice of arrows that explains their paint best (search-arrows.c).  If they are very
- * many, or others hide some of their paint, or if they have dots, fade or taper, the paint is a graph of lines
- * (stroke-graph.c), of which each may be an arrow (joined-heads.c, joined-profiles.c).  Two lines that meet and go straight on may be one arrow that
+ * The paint is a graph of lines (stroke-graph.c), of which each may be an arrow: joined-heads.c reads those with heads
+ * or dots, joined-profiles.c those that fade or taper.  Two lines that meet and go straight on may be one arrow that
  * passes there.  They are read only if both begin or both end there, or if the head is clear between them.
+ *
+ * Those with heads or dots are also read by the choice of arrows that explains all their paint best (search-arrows.c).
+ * That finds more where many meet, the graph where few do, so what finds more clear arrows counts.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -124,8 +126,8 @@ count_clear (const CeldJoinedLines *s, const CeldLineArrow *arrows)
   return n;
 }
 
-/* Reads lines with heads also by the choice of arrows that explains all paint, unless others hide some of it.  The way
- * that finds more clear arrows counts; lines become those of its graph. */
+/* Reads lines with heads or dots in both ways, unless others hide some of their paint.  The lines become those of the way
+ * that finds more clear arrows. */
 static CeldStatus
 read_marks (CeldJoinedLines *s, CeldLineArrow **arrows)
 {
@@ -133,7 +135,7 @@ read_marks (CeldJoinedLines *s, CeldLineArrow **arrows)
   CeldLineArrow  *found = NULL;
   CeldStatus      status = celd_joined_heads_read (s, arrows);
 
-  if (status != CELD_OK || s->style != CELD_ARROW_HEAD || s->cover)
+  if (status != CELD_OK || s->cover)
     return status;
   status = celd_search_arrows_read (s, &other.graph, &found);
   if (status == CELD_OK && found && count_clear (&other, found) > count_clear (s, *arrows))
