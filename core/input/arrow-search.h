@@ -84,6 +84,13 @@ celd_search_between (CeldPoint a, CeldPoint b, double t)
   return (CeldPoint) { a.x + t * (b.x - a.x), a.y + t * (b.y - a.y) };
 }
 
+/* The shaft of chosen arrow k. */
+static inline const CeldShaft *
+celd_chosen_shaft (const CeldArrowSearch *s, size_t k)
+{
+  return &s->shaft[s->option[s->choice.item[k]].shaft];
+}
+
 /* The place where an option has its head or dot (marked), or its other end. */
 static inline CeldPoint
 celd_option_place (const CeldArrowSearch *s, const CeldArrowOption *o, bool marked)

@@ -126,8 +126,8 @@ count_clear (const CeldJoinedLines *s, const CeldLineArrow *arrows)
   return n;
 }
 
-/* Reads lines with heads or dots in both ways, unless others hide some of their paint.  The lines become those of the way
- * that finds more clear arrows. */
+/* Reads lines with heads or dots in both ways, unless others hide some of their paint.  The lines become those of the
+ * way that finds more clear arrows. */
 static CeldStatus
 read_marks (CeldJoinedLines *s, CeldLineArrow **arrows)
 {
@@ -169,8 +169,7 @@ read_lines (CeldJoinedLines *s, const CeldArrowLayer *layer, CeldRelations *rela
   for (size_t k = 0; k < s->graph.n_lines && status == CELD_OK && s->hidden; k++)
     if (is_as_short_as_head (s, &arrows[k]))
       arrows[k].unclear = CELD_REASON_SHORT;
-  for (size_t k = 0; k < s->graph.n_lines && status == CELD_OK; k++)
-    *n += is_long (s, k) && arrows[k].first == k && !arrows[k].unclear;
+  *n = status == CELD_OK ? (int) count_clear (s, arrows) : 0;
   if (*n == 1 && !s->hidden)
     *n = 0;
   if (status == CELD_OK && *n)

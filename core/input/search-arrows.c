@@ -110,8 +110,8 @@ find_choice (CeldArrowSearch *s, double *margin)
 
 /* ------------------------------------------------------------------ what is clear */
 
-/* Finds of each chosen arrow the area of its head or dot that no line explains (seen), and of that what no other head does
- * (own); arrows share dots. */
+/* Finds of each chosen arrow the area of its head or dot that no line explains (seen), and of that what no other head
+ * does (own); arrows share dots. */
 static CeldStatus
 find_own (ArrowReading *r)
 {
@@ -189,7 +189,7 @@ has_partner (const ArrowReading *r, size_t place, size_t i, CeldPoint way)
 
   for (size_t k = 0; k < s->choice.n; k++)
     {
-      const CeldShaft *shaft = &s->shaft[s->option[s->choice.item[k]].shaft];
+      const CeldShaft *shaft = celd_chosen_shaft (s, k);
 
       for (int end = 0; end < 2; end++)
         if (k != i && shaft->place[end] == place)
@@ -238,13 +238,13 @@ static bool
 is_double (const ArrowReading *r, size_t i)
 {
   const CeldArrowSearch *s = r->s;
-  const CeldShaft       *a = &s->shaft[s->option[s->choice.item[i]].shaft];
+  const CeldShaft       *a = celd_chosen_shaft (s, i);
   double                 most = CELD_NEAR_ENDS * s->width + 1;
 
   for (size_t k = 0; k < s->choice.n; k++)
     for (int end = 0; end < 2 && k != i; end++)
       {
-        const CeldShaft *b = &s->shaft[s->option[s->choice.item[k]].shaft];
+        const CeldShaft *b = celd_chosen_shaft (s, k);
 
         if (celd_points_apart (s->place[a->place[0]], s->place[b->place[end]]) < most &&
             celd_points_apart (s->place[a->place[1]], s->place[b->place[1 - end]]) < most)
@@ -257,7 +257,7 @@ is_double (const ArrowReading *r, size_t i)
 static bool
 leads_through (const CeldArrowSearch *s, size_t k, size_t place)
 {
-  const CeldShaft *shaft = &s->shaft[s->option[s->choice.item[k]].shaft];
+  const CeldShaft *shaft = celd_chosen_shaft (s, k);
 
   for (int end = 0; end < 2; end++)
     if (celd_points_apart (s->place[shaft->place[end]], s->place[place]) < THROUGH_FROM * s->width)
@@ -268,7 +268,8 @@ leads_through (const CeldArrowSearch *s, size_t k, size_t place)
   return false;
 }
 
-/* Does an arrow lead through a place where two others do, too?  Three that cross in one place more likely end there. */
+/* Does an arrow lead through a place where two others do, too?  Three that cross in one place more likely end
+ * there. */
 static bool
 is_crossed_twice (const ArrowReading *r, size_t i)
 {
@@ -289,11 +290,11 @@ static bool
 is_on_another (const ArrowReading *r, size_t i)
 {
   const CeldArrowSearch *s = r->s;
-  const CeldShaft       *a = &s->shaft[s->option[s->choice.item[i]].shaft];
+  const CeldShaft       *a = celd_chosen_shaft (s, i);
 
   for (size_t k = 0; k < s->choice.n; k++)
     {
-      const CeldShaft *b = &s->shaft[s->option[s->choice.item[k]].shaft];
+      const CeldShaft *b = celd_chosen_shaft (s, k);
       size_t           n = 0;
 
       for (size_t j = 0; j < a->n && k != i; j++)
@@ -327,8 +328,9 @@ is_mark_needless (const ArrowReading *r, size_t k)
   return r->own[k] < ARROW_LEAST_OWN;
 }
 
-/* May arrow i, which ends at a place with its end a, and arrow k with its end b be one that passes there?  It would have
- * just one head or dot, so that of the other one must be needless; there is none if both have them at the place. */
+/* May arrow i, which ends at a place with its end a, and arrow k with its end b be one that passes there?  It would
+ * have just one head or dot, so that of the other one must be needless; there is none if both have them at the
+ * place. */
 static bool
 may_be_one (const ArrowReading *r, size_t i, int a, size_t k, int b)
 {
@@ -349,11 +351,11 @@ static bool
 may_pass (const ArrowReading *r, size_t i)
 {
   const CeldArrowSearch *s = r->s;
-  const CeldShaft       *a = &s->shaft[s->option[s->choice.item[i]].shaft];
+  const CeldShaft       *a = celd_chosen_shaft (s, i);
 
   for (size_t k = 0; k < s->choice.n; k++)
     for (int ends = 0; ends < 4 && k != i; ends++)
-      if (s->shaft[s->option[s->choice.item[k]].shaft].place[ends % 2] == a->place[ends / 2] &&
+      if (celd_chosen_shaft (s, k)->place[ends % 2] == a->place[ends / 2] &&
           may_be_one (r, i, ends / 2, k, ends % 2))
         return true;
   return false;
