@@ -14,8 +14,8 @@ KINDS = ['clean', *VARIANTS, *MADE]
 QUICK = ['bee', 'campfire', 'folders', 'monkey', 'people', 'bee-gappy', 'monkey-wide', 'bee-crop',
          'caterpillar-crop', 'house-crop', 'caterpillar-pencil', 'armadillo-sloppy', 'frog-sloppy',
          'people-sloppy', 'bee-soft', 'people-soft', 'bee-pixel', 'house-pixel', 'lemonade-pixel',
-         'palette-pixel', 'house-coloured', 'fly-tinted', 'folders-pastel', 'bee-photo', 'campfire-scan',
-         'people-chalk']
+         'palette-pixel', 'bee-coloured', 'house-coloured', 'fly-tinted', 'folders-pastel', 'bee-photo',
+         'campfire-scan', 'people-chalk']
 
 
 def cases_in(folder, kinds):
