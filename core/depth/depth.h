@@ -81,7 +81,7 @@ bool       celd_has_detour (const CeldPixelLinks *links, int x, int y, bool down
 typedef struct { double usual, most; } CeldGapLength;
 
 /* For a drawing with strokes of this width: about 6 stroke widths, hence 7 from one end of the line to the other; or as
- * many widths of the lines that it interrupts, if they are up to 4 times as broad. */
+ * many widths of the lines that it interrupts, if they are up to 4 times as broad.  Hairlines: 16 pixels. */
 CeldGapLength celd_longest_gap (int stroke);
 
 /* Fills in `cut`: the edges at which ink cuts depth, and the gaps that hold it.  A gap is a boundary of levels on paper

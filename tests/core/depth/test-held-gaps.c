@@ -58,6 +58,19 @@ a_gap_holds_and_an_opening_does_not (void)
       }
 }
 
+/* A line of a pixel or two is a poor measure: breaks of 16 pixels hold. */
+static void
+gaps_of_hairlines_hold (void)
+{
+  static Page page;
+
+  for (int stroke = 1; stroke <= 2; stroke++)
+    {
+      draw_wall (&page, stroke, 16);
+      NEAR (step_at_gap (&page, true, false), 1, 1e-6);
+    }
+}
+
 /* A blue contour is ink for segmentation only.  It keeps what it covers smooth, and the rest of the wall cuts. */
 static void
 a_contour_for_segmentation_keeps_a_gap_smooth (void)
@@ -302,6 +315,7 @@ int
 main (void)
 {
   RUN (a_gap_holds_and_an_opening_does_not);
+  RUN (gaps_of_hairlines_hold);
   RUN (gaps_of_broad_lines_hold);
   RUN (gaps_of_the_broadest_lines_hold);
   RUN (a_contour_for_segmentation_keeps_a_gap_smooth);
