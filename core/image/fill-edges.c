@@ -20,7 +20,7 @@
 #define LINE_EDGE      3     /* pixels from the ink of a line to where its edge ends; chosen */
 #define CLEAR_STEP     3     /* times the least contrast of a line; chosen */
 #define DARKEST_SHADOW 0.35f /* light in a shadow as a share of that beside it, at least; chosen */
-#define HUE_CHANGE     24    /* of 255: how far a channel in a shadow may be from proportion; chosen */
+#define HUE_CHANGE     24    /* of 255 in full light: how far a channel in a shadow may be from proportion; chosen */
 
 /* Raises steps, of n pixels, to those of a channel from the pixel before to the one after each. */
 CELD_CLONES static void
@@ -66,7 +66,7 @@ is_shadow (const uint8_t dark[3], const uint8_t light[3], uint8_t invert)
   share = products / celd_most (squares, 1);
   for (int c = 0; c < 3; c++)
     most = celd_most (most, fabsf ((float) (dark[c] ^ invert) - share * (float) (light[c] ^ invert)));
-  return share >= DARKEST_SHADOW && share <= 1 && most <= HUE_CHANGE;
+  return share >= DARKEST_SHADOW && share <= 1 && most <= share * HUE_CHANGE;
 }
 
 /* Whether there is an edge between fills across pixel (x,y), from dx,dy before to dx,dy after it. */

@@ -1,5 +1,6 @@
 /* Whether a drawing has flat fills in greys, as cartoons without colours have: a fiftieth of it lies in flat blocks of
- * tones that are neither its paper's, the commonest one, nor those of what is darkest and lightest.
+ * tones that are neither its paper's, the commonest one, nor those of what is darkest and lightest; or an eighth of what
+ * is no paper does, if the drawing is small on its page.
  *
  * A flat fill has one tone.  Uneven light and gradients have tones side by side, so that none of them stands out; the
  * grain of paper and pencil leaves no flat blocks.
@@ -17,7 +18,9 @@
 #define TONES_APART 16   /* of 255: between tones that differ; chosen */
 #define STANDS_OUT  4    /* times as many blocks have a fill's tone, but for rounding, as those next to it; chosen */
 #define EXTREME     1000 /* a tone is the darkest or the lightest if one pixel in so many goes beyond; chosen */
-#define LEAST_FILLS 50   /* fills are at least one part in so many of a drawing; as for colours */
+#define LEAST_FILLS 50   /* fills are at least one part in so many of a drawing, as for colours; ... */
+#define LEAST_DRAWN 8    /* ... or one in so many of the blocks that are no paper, ... */
+#define FEW_BLOCKS  8    /* ... if there are so many; chosen */
 
 /* Counts values of the middle channel in a block, and its tone if it is flat. */
 static void
@@ -78,5 +81,6 @@ celd_has_grey_fills (const CeldMask channel[3])
     if (flat[i] && i - darkest >= TONES_APART && lightest - i >= TONES_APART && abs (i - paper) >= TONES_APART &&
         blocks_near (flat, i, 0, 1) > STANDS_OUT * blocks_near (flat, i, 2, 2))
       fills += flat[i];
-  return LEAST_FILLS * fills > blocks;
+  return LEAST_FILLS * fills > blocks ||
+         (fills >= FEW_BLOCKS && LEAST_DRAWN * fills > blocks - blocks_near (flat, paper, 0, FLAT));
 }

@@ -476,19 +476,24 @@ grain_makes_no_lines (void)
 static void
 edges_without_lines_are_drawn (void)
 {
-  uint32_t seed = 11;
+  static const Tone of[3][2] = {
+    { { 1, 0.7f, 0.75f }, { 0.25f, 0.12f, 0.08f } },
+    { { 1, 0.7f, 0.75f }, { 0.2f, 0.6f, 0.3f } },
+    { { 0.26f, 0.39f, 0.82f }, { 0.18f, 0.17f, 0.35f } }, /* nearly as dark all over as a shadow */
+  };
+  uint32_t          seed = 11;
 
-  for (int turn = 0; turn < 2; turn++)
+  for (int turn = 0; turn < 3; turn++)
     {
       int stray = 0;
 
-      draw (blue, yellow, pink, brown);
+      draw (blue, yellow, of[turn][0], brown);
       for (int y = 0; y < SIDE; y++)
         for (int x = 0; x < SIDE; x++)
           {
             seed = seed * 1664525u + 1013904223u;
             if (inside (x, y, 125, 100, 42) && x + y > 225)
-              put (x, y, turn ? (Tone) { 0.2f, 0.6f, 0.3f } : brown);
+              put (x, y, of[turn][1]);
             if (y >= 155) /* 10 of 255 a pixel, and grain */
               {
                 float slope = (float) (x < 60 ? 0 : x < 78 ? x - 60 : 18) / 20;
@@ -592,6 +597,24 @@ grey_fills_are_paper (void)
     }
 }
 
+/* A small drawing in pale colours on a large page. */
+static void
+few_fills_are_paper (void)
+{
+  const Tone pale = { 0.85f, 0.88f, 1 }, black = { 0.05f, 0.05f, 0.05f };
+  int        dark = 0;
+
+  for (int y = 0; y < SIDE; y++)
+    for (int x = 0; x < SIDE; x++)
+      put (x, y, mixed (inside (x, y, 100, 100, 20) ? pale : white, black, ring (x, y, 100, 100, 20)));
+  CHECK (find (CELD_INK_AUTO, NULL) == CELD_OK);
+  for (int y = 0; y < SIDE; y++)
+    for (int x = 0; x < SIDE; x++)
+      dark += inside (x, y, 100, 100, 15) && luma_of[y * SIDE + x] < 0.95f;
+  NEAR (dark, 0, 0);
+  CHECK (luma_of[100 * SIDE + 80] < 0.1f);
+}
+
 /* Grey fills are found when the artist asks for it, and nothing is found where there is nothing. */
 static void
 by_request (void)
@@ -645,6 +668,7 @@ main (void)
   RUN (transparent_is_white);
   RUN (line_art_stays);
   RUN (grey_fills_are_paper);
+  RUN (few_fills_are_paper);
   RUN (by_request);
   RUN (bad_input);
   return DONE;
