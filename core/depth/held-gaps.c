@@ -23,7 +23,7 @@
 #include <math.h>
 
 #define LONGEST_GAP   12 /* half stroke widths, rounded up; chosen */
-#define LEAST_GAP     16 /* pixels: the width of a line of one or two pixels is hardly a measure; chosen */
+#define HAIRLINE_GAP  16 /* pixels: the width of a line of one or two pixels is hardly a measure; chosen */
 #define MOST_BROADER  4  /* times as broad as most lines; broader ink is an area; chosen */
 #define BROADEST_AREA 3  /* times as broad as a line has to be; broader ink is an area; chosen */
 #define DISC_PLACES   16 /* on the rim of a disc, and halfway to it, that are looked at; chosen */
@@ -243,7 +243,7 @@ celd_gaps_hold (const CeldDepthEdges *edges, const CeldPlane *borders, const flo
 CeldGapLength
 celd_longest_gap (int stroke)
 {
-  double usual = fmax (LEAST_GAP, LONGEST_GAP * ((stroke + 1) / 2));
+  double usual = fmax (HAIRLINE_GAP, LONGEST_GAP * ((stroke + 1) / 2));
 
   return (CeldGapLength) { usual, MOST_BROADER * usual };
 }

@@ -3,6 +3,7 @@
  *   faint-strokes.c      strokes that are too faint to be read
  *   scribble-opacity.c   which pixels are opaque enough to be paint
  *   scribble-colours.c   counts the colours of a layer, and cleans them where it was stored with loss
+ *   scribble-noise.c     whether a layer was stored with loss
  *   scribble-loss.c      restores thin strokes whose chroma a codec has smeared
  *   scribble-pieces.c    finds these strokes by luma, block by block
  *   scribble-unmix.c     what colours these strokes had
@@ -153,6 +154,11 @@ bool celd_paint_is_faint (const CeldPaint *layer, int visible, int opaque, int x
 /* scribble-opacity.c: sets kind to 1 where the layer is opaque enough to be paint, else to 0; label is used as work
  * space. */
 CeldStatus celd_scribble_paint (CeldScribbleLayer *r);
+
+#define CELD_SIMILAR 36 /* of 255: between colours of one stroke in a lossy picture, at most; chosen */
+
+/* scribble-noise.c: sets the radius to the noise of strokes and a margin; whether the layer was stored with loss. */
+bool celd_scribble_noise (CeldScribbleLayer *r);
 
 /* scribble-colours.c: fills in id, colour, paper, radius and lossy; label and kind are used as work space. */
 CeldStatus celd_scribble_colours (CeldScribbleLayer *r, bool flats, const CeldHost *host);

@@ -1,8 +1,7 @@
 /* The exact colours of a painted layer, after noise has been removed.
  *
- * Colours are counted in a hash table.  Neighbouring pixels of one stroke have one colour in an ordinary layer; if they
- * differ by small amounts of either sign, the picture was stored with loss (JPEG).  It is restored if its strokes are
- * thin, else filtered, and its colours are counted again.  In a picture without alpha the commonest colour is paper.
+ * Colours are counted in a hash table.  A picture that was stored with loss (scribble-noise.c) is restored if its strokes
+ * are thin, else filtered, and its colours are counted again.  In a picture without alpha the commonest colour is paper.
  *
  * Cost: O(pixels); for a lossy picture 8 bytes a pixel more while it is filtered.
  *
@@ -11,17 +10,10 @@
 #include "base/base.h"
 #include "input/input.h"
 
-#include <math.h>
 #include <string.h>
 
-/* Distances of colours, in steps of 1/255; all chosen. */
-#define CLEAN_RADIUS  3         /* colours are equal in a picture without loss: rounding of premultiplied colours */
-#define SOFT_RADIUS   5         /* clean soft strokes on paper have no more; measured: 4, and 5 or more from JPEGs */
-#define LOSSY_RADIUS  14        /* colours are equal in a filtered picture */
-#define MOST_NOISE    20        /* larger noise counts as this */
-#define SIMILAR       36        /* of one colour in a lossy picture, at most */
-#define FILTER_PASSES 3         /* chosen */
-#define LEAST_SINE    0.25      /* of the angle between tints and grey, from which on they show noise; chosen */
+#define LOSSY_RADIUS  14 /* of 255: colours are equal in a filtered picture; chosen */
+#define FILTER_PASSES 3  /* chosen */
 
 /* ------------------------------------------------------------------ exact colours */
 
@@ -120,91 +112,7 @@ count_colours (CeldScribbleLayer *r, bool flats, const CeldHost *host)
   return CELD_OK;
 }
 
-/* ------------------------------------------------------------------ noise */
-
-/* How far a pixel is from the mean of its left and right neighbours. */
-static double
-distance_from_mean (const CeldScribbleLayer *r, const uint32_t *id)
-{
-  const int *a = r->colour[id[-1]].channel, *b = r->colour[id[1]].channel;
-  int        mean[3];
-
-  for (int i = 0; i < 3; i++)
-    mean[i] = (a[i] + b[i] + 1) / 2;
-  return sqrt (celd_colour_distance (mean, r->colour[id[0]].channel));
-}
-
-/* The noise of luma by which a pixel and its left and right neighbours leave the line from paper to the strongest of
- * their colours.  Mixtures of one colour with paper are on this line, whatever the profile of the brush, and noise that
- * is the same in all channels leaves it by the sine of the line's angle with grey. */
-static double
-noise_off_mixtures (const CeldScribbleLayer *r, const uint32_t *id)
-{
-  const int *paper = r->colour[r->paper].channel;
-  double     most = 0, off = 0, grey, sine;
-  int        strongest[3] = { 0 };
-
-  for (int k = -1; k <= 1; k++)
-    if (celd_colour_distance (r->colour[id[k]].channel, paper) > most)
-      {
-        most = celd_colour_distance (r->colour[id[k]].channel, paper);
-        for (int i = 0; i < 3; i++)
-          strongest[i] = r->colour[id[k]].channel[i] - paper[i];
-      }
-  grey = strongest[0] + strongest[1] + strongest[2];
-  sine = sqrt (fmax (1 - grey * grey / (3 * most), 0));
-  for (int k = -1; k <= 1; k++)
-    {
-      const int *c = r->colour[id[k]].channel;
-      double     along = 0;
-
-      for (int i = 0; i < 3; i++)
-        along += (c[i] - paper[i]) * strongest[i];
-      off = fmax (off, celd_colour_distance (c, paper) - along * along / most);
-    }
-  return sine > LEAST_SINE ? sqrt (off) / sine : MOST_NOISE;
-}
-
-/* The noise at a pixel, by its left and right neighbours in the same stroke; negative if they are of other ones. */
-static int
-noise_at (const CeldScribbleLayer *r, const uint32_t *id)
-{
-  const int *c = r->colour[id[0]].channel;
-  double     noise;
-
-  if (id[-1] == id[0] && id[1] == id[0])
-    return 0;
-  if (celd_colour_distance (r->colour[id[-1]].channel, c) > SIMILAR * SIMILAR ||
-      celd_colour_distance (r->colour[id[1]].channel, c) > SIMILAR * SIMILAR)
-    return -1;
-  noise = distance_from_mean (r, id);
-  return (int) (r->paper ? fmin (noise, noise_off_mixtures (r, id)) : noise);
-}
-
-/* Sets the radius to the noise and a margin.  Noise is the distance of a pixel from the mean of its left and right
- * neighbours, which is not exceeded in nine of ten places where the three are of one stroke; so ramps are no noise, and
- * neither is the middle of a soft stroke on paper. */
-static void
-measure_noise (CeldScribbleLayer *r)
-{
-  size_t places[MOST_NOISE + 1] = { 0 }, all = 0, below = 0;
-  int    noise = 0;
-
-  for (int y = 0; y < r->height; y++)
-    for (int x = 1; x < r->width - 1; x++)
-      {
-        const uint32_t *id = r->id + (size_t) y * (size_t) r->width + (size_t) x;
-        int             d;
-
-        if (!id[-1] || !id[0] || !id[1] || id[0] == r->paper || (d = noise_at (r, id)) < 0)
-          continue;
-        places[d < MOST_NOISE ? d : MOST_NOISE]++;
-        all++;
-      }
-  while (noise < MOST_NOISE && 10 * (below += places[noise]) < 9 * all)
-    noise++;
-  r->radius = noise + CLEAN_RADIUS < MOST_NOISE ? noise + CLEAN_RADIUS : MOST_NOISE;
-}
+/* ------------------------------------------------------------------ filtering */
 
 /* paper is NULL if transparent pixels are paper. */
 typedef struct { const CeldPaint *from; CeldPaint to; const CeldScribbleColour *paper; } Filter;
@@ -238,7 +146,7 @@ filter_row (void *data, int y)
             const uint8_t *q = CELD_RGBA (f->from, u, v);
             int            d0 = q[0] - c[0], d1 = q[1] - c[1], d2 = q[2] - c[2];
 
-            if (q[3] < 128 || d0 * d0 + d1 * d1 + d2 * d2 > SIMILAR * SIMILAR)
+            if (q[3] < 128 || d0 * d0 + d1 * d1 + d2 * d2 > CELD_SIMILAR * CELD_SIMILAR)
               continue;
             sum[0] += q[0];
             sum[1] += q[1];
@@ -318,8 +226,5 @@ celd_scribble_colours (CeldScribbleLayer *r, bool flats, const CeldHost *host)
   status = count_colours (r, flats, &count);
   if (status != CELD_OK)
     return status;
-  measure_noise (r);
-  if (r->radius <= (r->paper ? SOFT_RADIUS : 2 * CLEAN_RADIUS))
-    return CELD_OK;
-  return clean (r, celd_scribble_thin (r), flats, &rest);
+  return celd_scribble_noise (r) ? clean (r, celd_scribble_thin (r), flats, &rest) : CELD_OK;
 }

@@ -149,6 +149,21 @@ class Layers(Test):
                 away = np.linalg.norm(found[32 + 45 * i, 150, :3].astype(float) - colour)
                 self.assertLess(away, 40, f'{colour} at quality {quality}')
 
+    def test_broad_scribbles_in_jpeg(self):
+        """Broad strokes keep their colours in a JPEG of high quality; only the paper round them shows that it is one."""
+        page = Image.new('L', (720, 540), 255)
+        ImageDraw.Draw(page).rectangle([240, 80, 480, 460], outline=0, width=4)
+        page.save(self.path('page.png'))
+        layer = Image.new('RGB', (720, 540), 'white')
+        for line, colour in (([(150, 180), (221, 331)], (255, 0, 0)), ([(320, 331), (420, 401)], (0, 0, 255)),
+                             ([(30, 41), (690, 41)], (0, 255, 0))):
+            ImageDraw.Draw(layer).line(line, fill=colour, width=18)
+        for quality in (90, 95):
+            layer.save(self.path('scribbles.jpg'), quality=quality)
+            self.celdepth('segment', 'page.png', '--scribbles', 'scribbles.jpg', '--report', 'report.json')
+            with open(self.path('report.json')) as file:
+                self.assertEqual(len(json.load(file)['labels']), 3, f'quality {quality}')
+
     def test_open_raster(self):
         """Layers in a stack of their own, hidden and half transparent, as artists keep their scribbles."""
         pages = {f'data/{name}.png': io.BytesIO() for name in ('drawing', 'scribbles')}
