@@ -204,7 +204,12 @@ open_decoded (const std::string &path, std::unique_ptr<Descriptor> descriptor)
     file->parts.push_back (describe (spec, file->width, file->height, file->input->format_name ()));
   if (iequals (file->input->format_name (), "psd"))
     name_layers (*file, psd_layer_names (path));
-  return file;
+  if (file->specs.size () > 1)
+    return file;
+
+  const int orientation = file->specs[0].get_int_attribute ("Orientation", 1);
+
+  return turned (std::move (file), orientation);
 }
 
 std::unique_ptr<PictureFile>

@@ -2,6 +2,7 @@
 //
 //   read-file.cpp     what OpenImageIO decodes
 //   psd-names.cpp     what OpenImageIO does not read of a PSD
+//   read-turned.cpp   pictures of a camera that was turned
 //   read-layered.cpp  OpenRaster and Krita documents: a zip of layers
 //
 // SPDX-License-Identifier: LGPL-3.0-or-later
@@ -59,6 +60,9 @@ std::unique_ptr<PictureFile> open_picture (const std::string &path);
 // Opens a PNG whose bytes the stream has, which must outlive the file.  The canvas is a rectangle in its coordinates.
 // Throws an IoFailure if the bytes are no PNG.
 std::unique_ptr<PictureFile> open_png (OIIO::Filesystem::IOProxy &stream, const CeldRect &canvas);
+
+// The file as it is to be shown, by the tag Orientation of Exif (1 = as it is stored; so are values that it cannot have).
+std::unique_ptr<PictureFile> turned (std::unique_ptr<PictureFile> file, int orientation);
 
 // The names of a PSD's layers in Unicode, from the lowest layer to the highest, "" where one has none; empty if the file
 // is damaged.

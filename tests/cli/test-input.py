@@ -164,6 +164,19 @@ class Layers(Test):
             with open(self.path('report.json')) as file:
                 self.assertEqual(len(json.load(file)['labels']), 3, f'quality {quality}')
 
+    def test_turned_photographs(self):
+        """A picture of a turned camera, with scribbles as an editor shows them: upright."""
+        turns = [Image.Transpose.FLIP_LEFT_RIGHT, Image.Transpose.ROTATE_180, Image.Transpose.FLIP_TOP_BOTTOM,
+                 Image.Transpose.TRANSPOSE, Image.Transpose.ROTATE_90, Image.Transpose.TRANSVERSE,
+                 Image.Transpose.ROTATE_270]
+        page = drawing().convert('RGB')
+        for orientation, turn in enumerate(turns, 2):
+            page.transpose(turn).save(self.path('page.tif'), tiffinfo={274: orientation})
+            shown = Image.open(self.path('page.tif')).convert('RGB')  # Pillow turns a TIFF
+            self.assertEqual(shown.tobytes(), page.tobytes(), f'orientation {orientation}')
+            with self.subTest(orientation=orientation):
+                self.same_labels('page.tif', '--scribbles', 'scribbles.png')
+
     def test_open_raster(self):
         """Layers in a stack of their own, hidden and half transparent, as artists keep their scribbles."""
         pages = {f'data/{name}.png': io.BytesIO() for name in ('drawing', 'scribbles')}
