@@ -150,6 +150,14 @@ left_out_text (const CeldProblem *p, const CeldPalette *palette, const CeldRelat
   if (p->kind == CELD_PROBLEM_OUTSIDE)
     snprintf (text, size, celd_in (translate, N_ ("%s names a point outside the drawing, so it was left out.")),
               relation);
+  else if (p->kind == CELD_PROBLEM_UNKNOWN_COLOUR && p->relation == CELD_NO_INDEX)
+    snprintf (text, size, celd_in (translate, N_ ("No region has the colour of the background, so there is none. The "
+                                                  "nearest colour is %s.")),
+              receiver (palette, p->label, N_ ("not known"), translate, colour));
+  else if (p->kind == CELD_PROBLEM_UNKNOWN_COLOUR && p->label && palette)
+    snprintf (text, size, celd_in (translate, N_ ("%s names a colour that no region has, so it was left out. The "
+                                                  "nearest colour is %s.")),
+              relation, receiver (palette, p->label, N_ ("not known"), translate, colour));
   else if (p->kind == CELD_PROBLEM_UNKNOWN_COLOUR)
     snprintf (text, size, celd_in (translate, N_ ("%s names a colour that no region has, so it was left out. Use the "
                                                   "colour of a scribble.")), relation);

@@ -70,7 +70,8 @@ typedef enum
   CELD_PROBLEM_COLOUR_LOST,        /* a colour has no pixel left after segmentation */
   CELD_PROBLEM_ARROW_UNCLEAR,      /* the painted arrow at (x,y) was left out, for `reason` */
   CELD_PROBLEM_OUTSIDE,            /* relation `relation` has an end outside the drawing; left out */
-  CELD_PROBLEM_UNKNOWN_COLOUR,     /* relation `relation` names a colour that is no label; left out */
+  CELD_PROBLEM_UNKNOWN_COLOUR,     /* relation `relation`, left out, or the background has a colour that is no label;
+                                    * that of `label` is nearest */
   CELD_PROBLEM_SAME_REGION,        /* both ends of relation `relation` lie in one region; left out */
   CELD_PROBLEM_CONTRADICTION,      /* relation `relation` contradicts the others of cycle `other`; left out */
   CELD_PROBLEM_NOT_CONVERGED,      /* the error of smooth depth is larger than the tolerance */

@@ -161,6 +161,9 @@ CeldStatus celd_palette_copy (const CeldPalette *palette, CeldPalette *copy);
  * channel, as after colour management; 0 if there is none.  Ignores transparent colours. */
 uint32_t celd_palette_find (const CeldPalette *palette, const uint8_t colour[3]);
 
+/* The label with the nearest colour, however far; 0 if all are transparent. */
+uint32_t celd_palette_nearest (const CeldPalette *palette, const uint8_t colour[3]);
+
 /* ------------------------------------------------------------------ distance.c: exact Euclidean distance transform */
 
 /* squared[p] = squared distance, in pixels, between the centres of p and of the nearest pixel q with inside[q] != 0;

@@ -198,11 +198,12 @@ colour_error (const uint8_t a[3], const uint8_t b[3])
   return error;
 }
 
-uint32_t
-celd_palette_find (const CeldPalette *palette, const uint8_t colour[3])
+/* The first label whose colour is nearest, if no channel differs by more than `most`; 0: there is none. */
+static uint32_t
+nearest_label (const CeldPalette *palette, const uint8_t colour[3], int most)
 {
   uint32_t label = 0;
-  int      least = COLOUR_ERROR + 1;
+  int      least = most + 1;
 
   for (size_t k = 0; k < palette->n; k++)
     {
@@ -215,6 +216,18 @@ celd_palette_find (const CeldPalette *palette, const uint8_t colour[3])
         }
     }
   return label;
+}
+
+uint32_t
+celd_palette_find (const CeldPalette *palette, const uint8_t colour[3])
+{
+  return nearest_label (palette, colour, COLOUR_ERROR);
+}
+
+uint32_t
+celd_palette_nearest (const CeldPalette *palette, const uint8_t colour[3])
+{
+  return nearest_label (palette, colour, 255);
 }
 
 /* The most frequent label of the paper along the picture's edge. */

@@ -127,6 +127,7 @@ add_link (CeldTermPicture *picture, size_t i, CeldGraph *graph, CeldProblems *pr
       if (graph->n_ends == graph->first[2 * i + side])
         {
           problem.kind   = term[side]->by_colour ? CELD_PROBLEM_UNKNOWN_COLOUR : CELD_PROBLEM_OUTSIDE;
+          problem.label  = term[side]->by_colour ? celd_palette_nearest (picture->palette, term[side]->colour) : 0;
           graph->kept[i] = false;
         }
     }

@@ -247,6 +247,19 @@ report_unreached (const CeldSegmentTask *task, const CeldLabels *labels, CeldPro
   return status;
 }
 
+/* Reports that the background should have a colour that no region has. */
+static CeldStatus
+report_background (const CeldSegmentTask *task, CeldProblems *problems)
+{
+  const CeldSettings *s = task->settings;
+
+  if (s->background != CELD_BACKGROUND_COLOUR || celd_palette_find (&task->palette, s->background_colour))
+    return CELD_OK;
+  return celd_problem_add (problems, (CeldProblem) {
+    .kind = CELD_PROBLEM_UNKNOWN_COLOUR, .x = -1, .y = -1, .relation = CELD_NO_INDEX,
+    .label = celd_palette_nearest (&task->palette, s->background_colour) });
+}
+
 CeldStatus
 celd_segment_report (const CeldSegmentTask *task, const CeldSeedRows *seeds, const CeldLabelling *labelling,
                      const CeldLabels *labels, const CeldHost *host, CeldProblems *problems)
@@ -265,6 +278,8 @@ celd_segment_report (const CeldSegmentTask *task, const CeldSeedRows *seeds, con
     status = report_lost (task, seeds, problems);
   if (all && status == CELD_OK)
     status = report_unreached (task, labels, problems);
+  if (status == CELD_OK)
+    status = report_background (task, problems);
   celd_strokes_clear (&own);
   return status == CELD_OK ? celd_progress (host, 1) : status;
 }

@@ -164,6 +164,14 @@ class Layers(Test):
             with open(self.path('report.json')) as file:
                 self.assertEqual(len(json.load(file)['labels']), 3, f'quality {quality}')
 
+    def test_unknown_colours(self):
+        """A colour that no region has is named, with the nearest: those of a JPEG are not those that were painted."""
+        words = 'segment', 'drawing.png', '--scribbles', 'scribbles.png', '--labels', 'again.npy'
+        near = '#%02x%02x%02x' % (RED[0], RED[1] + 3, RED[2])
+        nearest = 'The nearest colour is #%02x%02x%02x.' % RED[:3]
+        self.assertIn(nearest, self.celdepth(*words, '--background', 'colour', '--background-colour', near))
+        self.assertIn(nearest, self.celdepth('popup', *words[1:4], '--relations', f'{near} > 1,1', '--levels', 'l.npy'))
+
     def test_turned_photographs(self):
         """A picture of a turned camera, with scribbles as an editor shows them: upright."""
         turns = [Image.Transpose.FLIP_LEFT_RIGHT, Image.Transpose.ROTATE_180, Image.Transpose.FLIP_TOP_BOTTOM,

@@ -26,6 +26,9 @@ terms_that_join_nothing (void)
   a = ask (PARTS, &palette, "A > #123456", NULL);
   CHECK (only_problem (&a, CELD_PROBLEM_UNKNOWN_COLOUR, 0) && levels_are (&a, "000000"));
   forget (&a);
+  a = ask (PARTS, &palette, "A > #220000", NULL); /* #1e0000 is nearest */
+  CHECK (only_problem (&a, CELD_PROBLEM_UNKNOWN_COLOUR, 0) && a.problems.item[0].label == 3);
+  forget (&a);
   a = ask (PARTS, &palette, "B>A; #140000 > 3,1", NULL);
   CHECK (only_problem (&a, CELD_PROBLEM_SAME_REGION, 1) && a.problems.item[0].label == 2);
   forget (&a);
