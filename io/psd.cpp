@@ -118,11 +118,23 @@ add_composite (Wand &wand, const CeldIoStack &stack)
   wand.add (stack, { 0, 0, stack.width, stack.height }, opaque ? "RGB" : "RGBA", nullptr, bytes);
 }
 
+// ImageMagick ends the program where a picture is larger than its policy allows (policy.xml), instead of telling so.
+static void
+check_limits (const CeldIoStack &stack)
+{
+  const size_t widest = MagickGetResourceLimit (WidthResource), highest = MagickGetResourceLimit (HeightResource);
+
+  if (size_t (stack.width) > widest || size_t (stack.height) > highest)
+    throw IoFailure ("ImageMagick, which writes PSD files, allows no more than " + std::to_string (widest) + " x " +
+                     std::to_string (highest) + " pixels here; write an ORA file, or raise the limits in its policy.xml.");
+}
+
 static Bytes
 encode_psd (const CeldIoStack &stack)
 {
   Wand wand;
 
+  check_limits (stack);
   add_composite (wand, stack);
   for (size_t i = 0; i < stack.layers; i++)
     wand.add (stack, layer_box (stack.layer[i]), "RGBA", stack.layer[i].name, layer_bytes (stack, i));

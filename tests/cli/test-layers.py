@@ -7,6 +7,7 @@ import json
 import os
 import subprocess
 import unittest
+import unittest.mock
 import zipfile
 
 import numpy as np
@@ -256,6 +257,13 @@ class Layers(Test):
             self.assertEqual(section, parts)
             lengths.append(section % 2)
         self.assertEqual(lengths, [0] * len(lengths))
+
+    @unittest.skipUnless(os.environ.get('PSD') == 'yes', 'built without ImageMagick')
+    def test_psd_beyond_the_limits_of_imagemagick(self):
+        """It would end the program."""
+        with unittest.mock.patch.dict(os.environ, MAGICK_WIDTH_LIMIT='100'):
+            self.fails('layers', 'drawing.png', '--scribbles', 'scribbles.png', '--output', 'layers.psd',
+                       naming='allows no more than 100 x')
 
     @unittest.skipUnless(os.environ.get('PSD') == 'no', 'built with ImageMagick')
     def test_no_psd(self):
