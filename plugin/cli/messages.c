@@ -157,6 +157,18 @@ cli_say_problems (const CeldProblems *problems, const CeldPalette *palette, cons
     }
 }
 
+/* Tells that depth goes beyond the scale of encoding=fixed, where most files end. */
+static void
+say_beyond_scale (const CeldOrder *order, const CeldSettings *settings)
+{
+  double far = (double) settings->far_level, range = (double) settings->near_level - far;
+  double last = order->levels ? (double) celd_order_value (order, order->levels - 1, settings) : 0;
+
+  if (settings->encoding == CELD_ENCODING_FIXED && last > 1 + 1e-6)
+    cli_say (_ ("Parts at levels above %g are alike in files of 8 and 16 bits, which end there: set --near-level to %g."),
+             (double) settings->near_level, far + last * range);
+}
+
 int
 cli_finish (const CliOptions *options, const CliReport *report)
 {
@@ -164,6 +176,8 @@ cli_finish (const CliOptions *options, const CliReport *report)
     return CLI_FAILED;
   if (report->order)
     say_cycles (options, report->order, report->relations);
+  if (!options->quiet && report->order)
+    say_beyond_scale (report->order, &options->settings);
   if (!options->quiet)
     cli_say_problems (report->problems, report->palette, report->relations);
   return report->order && report->order->n_cycles ? CLI_CONTRADICTED : CLI_DONE;

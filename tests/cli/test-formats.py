@@ -82,6 +82,10 @@ class Formats(Test):
                    '--far-level', '-10')
         levels = np.load(self.path('l.npy'))
         np.testing.assert_allclose([at(levels, p) for p in (IN_PAGE, IN_A, IN_B)], [0.5, 0.55, 0.6], atol=1e-6)
+        words = ('popup', 'drawing.png', '--scribbles', 'scribbles.png', '--relations', RELATIONS, '--levels', 'l.png',
+                 '--encoding', 'fixed', '--near-level')
+        self.assertIn('--near-level to 2', self.celdepth(*words, '1'))
+        self.assertEqual(self.celdepth(*words, '2', '--far-level', '-1'), '')
 
     def test_normals(self):
         normals = self.make('normals')
