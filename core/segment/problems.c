@@ -109,6 +109,22 @@ report_overruled (const CeldSegmentTask *task, const CeldStrokes *strokes, const
   return status;
 }
 
+/* Sets `outline` of the labels that are painted on ink only: in a flat colouring with lines, the colours of lines. */
+static void
+find_outlines (const CeldSegmentTask *task, const CeldSeedRows *seeds, bool *outline)
+{
+  for (uint32_t l = 1; l <= task->palette.n; l++)
+    outline[l] = true;
+  for (int y = 0; y < seeds->height; y++)
+    for (size_t i = 0; i < seeds->row[y].n; i++)
+      {
+        const CeldSeedRun *run = &seeds->row[y].run[i];
+
+        for (int x = run->x; x < run->end && run->label <= task->palette.n && outline[run->label]; x++)
+          outline[run->label] = !celd_is_paper (CELD_AT (task->ink, x, y));
+      }
+}
+
 static CeldStatus
 report_lost (const CeldSegmentTask *task, const CeldSeedRows *seeds, CeldProblems *problems)
 {
@@ -117,6 +133,8 @@ report_lost (const CeldSegmentTask *task, const CeldSeedRows *seeds, CeldProblem
 
   if (!reported)
     return CELD_NO_MEMORY;
+  if (task->settings->flats)
+    find_outlines (task, seeds, reported);
   for (int y = 0; y < seeds->height; y++)
     for (size_t i = 0; i < seeds->row[y].n && status == CELD_OK; i++)
       {

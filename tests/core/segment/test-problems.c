@@ -117,6 +117,20 @@ a_lost_colour_is_reported_once (void)
   case_close (&c);
 }
 
+/* The colour of outlines in a flat colouring. */
+static void
+a_lost_colour_of_outlines_is_not_reported (void)
+{
+  static const char *const lines[] = { "1111####", "1111#222", "1111#222", NULL };
+  static const char *const painted[] = { "AAAABBBB", "AAAABCCC", "AAAABCCC", NULL };
+  static const char *const labels[] = { "AAAACCCC", "AAAACCCC", "AAAACCCC", NULL };
+  Case                     c;
+
+  report (&c, lines, painted, labels, 3, true);
+  NEAR (c.problems.n, 0, 0);
+  case_close (&c);
+}
+
 /* Nine pixels, the square of three stroke widths, are worth a word, six are not; in flats none is. */
 static void
 closed_regions_without_a_stroke_are_unreached (void)
@@ -322,6 +336,7 @@ main (void)
   RUN (a_stroke_that_lost_its_majority_is_overruled);
   RUN (half_a_stroke_and_specks_are_not_reported);
   RUN (a_lost_colour_is_reported_once);
+  RUN (a_lost_colour_of_outlines_is_not_reported);
   RUN (closed_regions_without_a_stroke_are_unreached);
   RUN (regions_open_through_a_gap_are_unreached);
   RUN (what_the_background_got_is_unreached);
