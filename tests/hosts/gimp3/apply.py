@@ -16,6 +16,7 @@ EXAMPLES, OUT = os.environ['CELDEPTH_EXAMPLES'], os.environ['CELDEPTH_OUT']
 QUIET = Gimp.RunMode.NONINTERACTIVE
 PRECISIONS = {8: Gimp.Precision.U8_NON_LINEAR, 32: Gimp.Precision.FLOAT_LINEAR}
 FORMATS = {8: ("R'G'B' u8", np.uint8), 32: ('RGB float', np.float32)}
+ALPHA = {8: ('A u8', np.uint8), 32: ('A float', np.float32)}
 
 
 def file(*path):
@@ -43,9 +44,11 @@ def open_layers(name, layers, bits):
 
 
 def apply(image, layer, operation, pads, **properties):
-    """A copy of the layer with the operation merged into it."""
+    """A copy of the layer with the operation merged into it; without alpha GIMP takes the colours alone."""
     layer = layer.copy()
     image.insert_layer(layer, None, 0)
+    if properties.get('result') == 'layer':
+        layer.add_alpha()
     effect = Gimp.DrawableFilter.new(layer, 'celdepth:' + operation, operation)
     for name, value in properties.items():
         effect.get_config().set_property(name, value)
@@ -56,11 +59,12 @@ def apply(image, layer, operation, pads, **properties):
     return layer
 
 
-def keep(layer, bits, name):
-    pixels, kind = FORMATS[bits]
+def keep(layer, bits, name, formats=None):
+    """The colours of a layer, or its alpha alone."""
+    pixels, kind = (formats or FORMATS)[bits]
     width, height = layer.get_width(), layer.get_height()
     data = layer.get_buffer().get(Gegl.Rectangle.new(0, 0, width, height), 1.0, pixels, Gegl.AbyssPolicy.NONE)
-    np.save(os.path.join(OUT, f'{bits}-{name}.npy'), np.frombuffer(data, kind).reshape(height, width, 3))
+    np.save(os.path.join(OUT, f'{bits}-{name}.npy'), np.frombuffer(data, kind).reshape(height, width, -1))
     return layer
 
 
@@ -85,12 +89,17 @@ def people(bits):
     step(drawing, 'depth-propagate', 'propagated-levels', {'aux': drawing, 'aux2': labels, 'aux3': levels},
          result='levels', flats=True)
     step(levels, 'relief', 'relief', {'aux': drawing, 'aux2': depth})
+    for result in ('art', 'view'):
+        step(drawing, 'depth-enhance', 'enhanced-' + result, {'aux': levels}, result=result)
+    keep(apply(image, drawing, 'depth-enhance', {'aux': levels}, result='layer'), bits, 'enhanced-layer', ALPHA)
     for result in ('shading', 'normals', 'occlusion'):
         step(levels, 'lumo-shade', result, {'aux': drawing}, result=result)
     step(levels, 'lumo-shade', 'tone', {'aux': drawing}, result='tone', **{'light-model': 'half-lambert'})
-    step(drawing, 'depth-exact', 'exact', {'aux': scribbles, 'aux2': arrows})
+    step(drawing, 'depth-exact', 'exact', {'aux': scribbles, 'aux2': arrows}, tolerance=1e-6)
     for result in ('labels', 'order', 'levels', 'depth', 'normals', 'shading', 'problems'):
         step(drawing, 'popup', 'popup-' + result, {'aux': scribbles, 'aux2': arrows}, result=result)
+    arrows.set_offsets(70, -40)  # which filters do not read
+    step(drawing, 'popup', 'popup-moved', {'aux': scribbles, 'aux2': arrows}, result='levels')
     image.delete()
 
 
