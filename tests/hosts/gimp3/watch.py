@@ -2,7 +2,8 @@
 # $CELDEPTH_OUT/stop; then the plug-in's parasites, those that would save a path of this folder in the image's file, and
 # whether the layer Depth is white.  Other files of that folder ask for something, and are removed when it is done:
 #
-#   fill       has the name of a layer, which is made white in a step of undo
+#   fill       has the name of a layer, which is made white in a step of undo; its lock goes for good
+#   console    messages go to the Error Console, which opens
 #   describe   gets all that there is to say of the image and its layers, with sums of their pixels, and becomes
 #              description.txt
 #
@@ -96,8 +97,11 @@ def look(image, filled):
     name = asked('fill')
     if name:
         layer = find(image.get_layers(), name)
+        layer.set_lock_content(False)
         layer.edit_fill(Gimp.FillType.WHITE)
         filled = filled or name == 'Depth'
+    if asked('console') is not None:
+        Gimp.message_set_handler(Gimp.MessageHandlerType.ERROR_CONSOLE)
     depth = find(image.get_layers(), 'Depth')
     if os.path.exists(os.path.join(OUT, 'describe')):
         describe(image)
