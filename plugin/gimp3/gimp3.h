@@ -86,6 +86,9 @@ gboolean celd_layers_check   (GimpLayer *const layer[CELD_N_LAYERS], const CeldP
 
 /* ------------------------------------------------------------------ layers.c */
 
+/* The name of an item, to be freed; "": the item is gone, as it may be at any moment while Live looks at an image. */
+char *celd_item_name (gpointer item);
+
 /* A layer of an image, and how many groups it lies in. */
 typedef struct { GimpLayer *layer; int depth; } CeldListedLayer;
 

@@ -9,6 +9,14 @@
  */
 #include "gimp3.h"
 
+char *
+celd_item_name (gpointer item)
+{
+  char *name = gimp_item_get_name (GIMP_ITEM (item));
+
+  return name ? name : g_strdup ("");
+}
+
 /* ------------------------------------------------------------------ listing */
 
 static void list (GArray *listed, GimpLayer *layer, int depth);
@@ -57,8 +65,8 @@ get_names (const GArray *listed)
     {
       GimpItem *item = GIMP_ITEM (g_array_index (listed, CeldListedLayer, i).layer);
 
-      named[i] = (CeldNamedLayer) { gimp_item_get_name (item), gimp_item_is_group (item) ||
-                                                               celd_item_is_marked (item, CELD_PICTURE_MARK, NULL) };
+      named[i] = (CeldNamedLayer) { celd_item_name (item), gimp_item_is_group (item) ||
+                                                           celd_item_is_marked (item, CELD_PICTURE_MARK, NULL) };
     }
   return named;
 }
@@ -214,7 +222,7 @@ celd_layers_open (GimpImage *image, GimpLayer *const layer[CELD_N_LAYERS], CeldP
   for (int role = 0; role < CELD_N_LAYERS; role++)
     if (layer[role] && gimp_item_get_image (GIMP_ITEM (layer[role])) != image)
       {
-        char *name = gimp_item_get_name (GIMP_ITEM (layer[role]));
+        char *name = celd_item_name (layer[role]);
 
         g_set_error (error, CELD_PIPELINE_ERROR, CELD_PIPELINE_FAILED,
                      _ ("The layer \"%s\" belongs to another image. Choose a layer of this image."), name);

@@ -138,7 +138,8 @@ read_layer (CeldLiveFollower *f, int role)
     {
       copy       = gimp_layer_new_from_drawable (GIMP_DRAWABLE (f->layer[role]), f->own);
       now.buffer = copy ? gimp_drawable_get_buffer (GIMP_DRAWABLE (copy)) : NULL;
-      gimp_drawable_get_offsets (GIMP_DRAWABLE (f->layer[role]), &now.x, &now.y);
+      if (copy)
+        gimp_drawable_get_offsets (GIMP_DRAWABLE (copy), &now.x, &now.y);
     }
   else
     now = celd_layer_seen (f->layer[role], f->own);

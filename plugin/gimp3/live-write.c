@@ -6,8 +6,10 @@
  * What is there is read in a copy, for the reason that live-follow.c gives.  Whole tiles are written, also where they
  * go beyond the layer, since GEGL would first read a tile that is written in part; a layer that grows meanwhile may get
  * them in a wrong place, until the next picture comes.  They are written by rows, so that a layer may shrink before the
- * rows that it loses are.  GIMP ends a plug-in that writes a tile which is not there any more: a layer that shrinks in
- * the few milliseconds that these rows take still ends it, and GIMP has no other way of writing without a step of undo.
+ * rows that it loses are.  GIMP ends a plug-in that writes a tile which is not there any more, or may not be written: a
+ * layer that shrinks, goes or is locked in the few milliseconds that these rows take still ends it.  Between any two
+ * messages of a plug-in GIMP may do what the artist has asked for, and each tile is a message; it has no other way of
+ * writing without a step of undo.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */

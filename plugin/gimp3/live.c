@@ -336,6 +336,8 @@ run (GimpProcedure *procedure, GimpRunMode run_mode, GimpImage *image, GimpDrawa
 #ifdef G_OS_UNIX
   setpriority (PRIO_PROCESS, 0, NICE); /* also of the threads that are made from now on */
 #endif
+  /* An item may go between any two calls: that is no error which the artist has to hear of. */
+  gimp_plug_in_set_pdb_error_handler (gimp_get_plug_in (), GIMP_PDB_ERROR_HANDLER_PLUGIN);
   gegl_init (NULL, NULL);
   show_window (image, config);
   return gimp_procedure_new_return_values (procedure, GIMP_PDB_SUCCESS, NULL);

@@ -14,7 +14,7 @@
 static gboolean
 is_for_arrows (GimpPath *path)
 {
-  char    *name = gimp_item_get_name (GIMP_ITEM (path)), *number = strstr (name, " #");
+  char    *name = celd_item_name (path), *number = strstr (name, " #");
   gboolean arrows;
 
   if (number && number[2] && strspn (number + 2, "0123456789") == strlen (number + 2))
