@@ -3,8 +3,8 @@
 
 compare.py OUT
 
-8 bits: within 1/255 of the encoded value; 32 bits: within 1/65535 of the linear one.  What levels or depth of 8 bits make
-coarse is compared at 32 bits only.  Layers together are the drawing.
+8 bits: within 1/255 of the encoded value; 32 bits: within 1/65535 of the linear one.  What levels or depth of 8 bits
+make coarse is compared at 32 bits only.  Layers together are the drawing.
 
 SPDX-License-Identifier: LGPL-3.0-or-later
 """
