@@ -14,6 +14,7 @@
 #define NICE      5   /* of the plug-in and its threads: GIMP comes first where processors are scarce; chosen */
 #define TICK      40  /* milliseconds between ticks at least; chosen */
 #define REST      8   /* times as long as a tick took until the next one, so that GIMP has time to paint; chosen */
+#define MOST_REST 1000 /* milliseconds until the next one: a tick that waits for a busy GIMP takes seconds; chosen */
 #define IDLE_TICK 120 /* milliseconds between ticks when nothing has changed for IDLE_AFTER microseconds; chosen */
 #define IDLE_AFTER 3000000
 
@@ -210,16 +211,16 @@ static gboolean
 tick (gpointer data)
 {
   Live  *live = data;
-  gint64 begin = g_get_monotonic_time (), end;
+  gint64 begin = g_get_monotonic_time (), end, rest;
 
   if (!follow (live))
     {
       g_main_loop_quit (live->loop);
       return G_SOURCE_REMOVE;
     }
-  end = g_get_monotonic_time ();
-  g_timeout_add ((guint) MAX (end - live->changed > IDLE_AFTER ? IDLE_TICK : TICK, REST * (end - begin) / 1000), tick,
-                 live);
+  end  = g_get_monotonic_time ();
+  rest = MIN (REST * (end - begin) / 1000, MOST_REST);
+  g_timeout_add ((guint) MAX (end - live->changed > IDLE_AFTER ? IDLE_TICK : TICK, rest), tick, live);
   return G_SOURCE_REMOVE;
 }
 
