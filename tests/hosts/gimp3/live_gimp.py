@@ -128,6 +128,12 @@ class Gimp:
         self.move_live(x, y, width, height)
         return self.live
 
+    def close_live(self):
+        xdotool('windowactivate', '--sync', self.live, 'key', 'alt+F4')
+        if not wait_for(lambda: not self.runs()):
+            raise RuntimeError('Live does not close')
+        xdotool('windowactivate', '--sync', self.main)
+
     def move_live(self, x, y, width, height):
         xdotool('windowmove', self.live, x, y, 'windowsize', self.live, width, height)
         time.sleep(1)
