@@ -11,6 +11,9 @@
 
 #define CELD_MOST_CHOSEN 250 /* arrows of connected paint, at most; chosen */
 #define CELD_SAME_COST   3   /* of two arrows along one line; chosen */
+#define CELD_ARM_LONG    5   /* length of a line that is no barb, in widths; chosen */
+#define CELD_ARM_BEGIN   1.5 /* widths from the end of a line to where its direction is measured; chosen */
+#define CELD_ARM_LED     8   /* widths by which lines are led on to the tips of heads; chosen */
 #define CELD_NEAR_ENDS   1.5 /* widths, and a pixel: ends of two arrows that are at one place, at most; chosen */
 
 /* A line inside the paint from one place to another.  cost: for how it bends and for paint that is narrow; bow: how far
@@ -100,7 +103,17 @@ celd_option_place (const CeldArrowSearch *s, const CeldArrowOption *o, bool mark
 
 /* ------------------------------------------------------------------ search-places.c */
 
+/* An end of a traced line, and its direction outwards. */
+typedef struct { CeldPoint at, way; double length; size_t line; int end; } CeldStrokeArm;
+
 CeldStatus celd_search_places_find (CeldArrowSearch *search);
+
+/* ------------------------------------------------------------------ search-votes.c */
+
+/* The places where lines meet that are led on from their ends, and where heads fit, the most certain first.  *place is
+ * to be freed by the caller in any case. */
+CeldStatus celd_search_votes_count (const CeldArrowSearch *search, const CeldStrokeArm *arm, size_t n_arms,
+                                    CeldPoint **place, size_t *n);
 
 /* ------------------------------------------------------------------ search-shafts.c */
 
@@ -168,6 +181,13 @@ bool celd_options_alike (const CeldArrowSearch *search, size_t a, size_t b);
 /* Of each chosen option: what the best choice without it costs more.  The choice may become better.  `margin` has room
  * for CELD_MOST_CHOSEN. */
 void celd_search_margins_find (CeldArrowSearch *search, double *margin);
+
+/* ------------------------------------------------------------------ search-clear.c */
+
+/* Of each chosen option: why its arrow is unclear.  margin is that of celd_search_margins_find; `unclear` has room for
+ * CELD_MOST_CHOSEN. */
+CeldStatus celd_search_clear_find (CeldArrowSearch *search, const CeldJoinedLines *lines, const double *margin,
+                                   CeldArrowReason *unclear);
 
 /* ------------------------------------------------------------------ search-arrows.c */
 

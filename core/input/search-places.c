@@ -1,8 +1,8 @@
 /* Places where arrows that share ends may begin or end.
  *
  * The ends of traced lines are led on straight: where several meet, and at the tips of heads that fit there, arrows
- * may end.  Others may at free ends of the paint, at corners, behind wide places, and where there is a dot.  Too many
- * places do no harm but take time; of places near each other the first is kept.
+ * may end (search-votes.c).  Others may at free ends of the paint, at corners, behind wide places, and where there is a
+ * dot.  Too many places do no harm but take time; of places near each other the first is kept.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -12,43 +12,25 @@
 #include <math.h>
 
 /* All chosen; lengths are widths of the paint. */
-#define PLACE_APART    0.9   /* between places, at least */
-#define PLACE_ROUGH    1.2   /* length of a rough edge, and a pixel */
-#define STUB           1.8   /* length of a line that has a direction */
-#define BARB           2.5   /* length of a line that shows where others meet */
-#define LONG           5     /* length of a line that is no barb */
-#define PLACE_NEAR_END 1.5   /* from the end of a line where its direction is measured, ... */
-#define PLACE_FAR_END  4.5   /* ... to here */
-#define PLACE_MOST_LED 6     /* by which lines are led on to where they meet */
-#define LEAST_TURN     0.3   /* sine of the angle at which lines meet, at least */
-#define CLUSTER        0.8   /* radius of places that are one */
-#define LEAST_VOTES    0.6   /* of a place where lines meet */
-#define HEAD_LED       8     /* by which lines are led on to the tips of heads, ... */
-#define HEAD_STEP      1.4   /* ... in such steps */
-#define HEAD_COST      0.7   /* of a head that fits */
-#define HEAD_VOTES     1.5   /* of one that costs nothing */
-#define FAT            0.6   /* distance from the edge of the paint inside a filled head */
-#define PLACE_CORNER   0.45  /* radians by which a line turns at a corner, ... */
-#define CORNER_SIDE    2.5   /* ... over so long sides */
-#define PLACE_WIDE     0.75  /* distance from the edge at a wide place, ... */
-#define NARROW         0.5   /* ... and behind it */
-#define PLACE_BLOB     0.66  /* distance from the edge in the middle of a dot */
-#define MOST_ARMS      600   /* ends of lines that are led on: more are a drawing */
-#define MOST_MEET      40000 /* places where they meet */
-
-/* The end of a traced line, and its direction outwards. */
-typedef struct { CeldPoint at, way; double length; size_t line; int end; } Arm;
-typedef struct { CeldPoint at; double weight, votes; } Meeting;
+#define PLACE_APART   0.9  /* between places, at least */
+#define PLACE_ROUGH   1.2  /* length of a rough edge, and a pixel */
+#define STUB          1.8  /* length of a line that has a direction */
+#define PLACE_FAR_END 4.5  /* from the end of a line to where its direction is measured, at most */
+#define FAT           0.6  /* distance from the edge of the paint inside a filled head */
+#define PLACE_CORNER  0.45 /* radians by which a line turns at a corner, ... */
+#define CORNER_SIDE   2.5  /* ... over so long sides */
+#define PLACE_WIDE    0.75 /* distance from the edge at a wide place, ... */
+#define NARROW        0.5  /* ... and behind it */
+#define PLACE_BLOB    0.66 /* distance from the edge in the middle of a dot */
+#define MOST_ARMS     600  /* ends of lines that are led on: more are a drawing */
 
 typedef struct
 {
   CeldArrowSearch *s;
   CeldStrokeGraph  raw;
   int             *degree; /* of each node */
-  Arm             *arm;
+  CeldStrokeArm   *arm;
   size_t           n_arms, arm_capacity;
-  Meeting         *meeting;
-  size_t           n_meetings, meeting_capacity;
 } PlaceBuild;
 
 static CeldStatus
@@ -88,12 +70,12 @@ find_arms (PlaceBuild *b)
       b->degree[line->node[end]]++;
       if (length < STUB * w)
         continue;
-      p = point_from (line, end, (size_t) fmin (PLACE_NEAR_END * w, 0.25 * (double) line->n));
+      p = point_from (line, end, (size_t) fmin (CELD_ARM_BEGIN * w, 0.25 * (double) line->n));
       q = point_from (line, end, (size_t) fmin (PLACE_FAR_END * w + 2, 0.8 * (double) line->n));
       d = celd_points_apart (p, q);
       if (d >= 0.7 * w)
         status = celd_append (b->arm, b->n_arms, b->arm_capacity,
-                              ((Arm) { p, { (p.x - q.x) / d, (p.y - q.y) / d }, length, i / 2, end }));
+                              ((CeldStrokeArm) { p, { (p.x - q.x) / d, (p.y - q.y) / d }, length, i / 2, end }));
     }
   return status;
 }
@@ -123,7 +105,7 @@ line_beyond (const PlaceBuild *b, size_t k, int end, bool *free)
 
 /* Does a line end freely, but for rough edges?  *length: of it and of the line beyond, if just one is there. */
 static bool
-is_free (const PlaceBuild *b, const Arm *arm, double *length)
+is_free (const PlaceBuild *b, const CeldStrokeArm *arm, double *length)
 {
   bool   free, free_beyond;
   size_t beyond;
@@ -134,9 +116,20 @@ is_free (const PlaceBuild *b, const Arm *arm, double *length)
   return free;
 }
 
+/* How far a line that is led on is painted, in steps from a distance on, up to a most. */
+static double
+painted_up_to (const CeldArrowSearch *s, const CeldStrokeArm *arm, double from, double step, double most)
+{
+  double d = from;
+
+  while (d < most && celd_search_room (s, celd_moved (arm->at, arm->way, d)) > 0)
+    d += step;
+  return d;
+}
+
 /* Does the paint of a short line go on straight beyond its other end?  Then it crosses something there. */
 static bool
-goes_on (const PlaceBuild *b, const Arm *arm)
+goes_on (const PlaceBuild *b, const CeldStrokeArm *arm)
 {
   double w = b->s->width;
 
@@ -144,13 +137,7 @@ goes_on (const PlaceBuild *b, const Arm *arm)
     return true;
   for (size_t i = 0; i < b->n_arms; i++)
     if (b->arm[i].line == arm->line && b->arm[i].end != arm->end)
-      {
-        double d = 0;
-
-        while (d < 4 * w && celd_search_room (b->s, celd_moved (b->arm[i].at, b->arm[i].way, d)) > 0)
-          d += 0.5 * w;
-        return d >= 4 * w;
-      }
+      return painted_up_to (b->s, &b->arm[i], 0, 0.5 * w, 4 * w) >= 4 * w;
   return false;
 }
 
@@ -162,112 +149,29 @@ add_free_ends (PlaceBuild *b)
 
   for (size_t i = 0; i < b->n_arms && status == CELD_OK; i++)
     {
-      const Arm *arm = &b->arm[i];
-      bool       fat = !b->s->dot && celd_search_room (b->s, b->raw.node[b->raw.line[arm->line].node[arm->end]].at) >
-                                       FAT * w;
-      double     d = 0, length;
+      const CeldStrokeArm *arm = &b->arm[i];
+      CeldPoint            node = b->raw.node[b->raw.line[arm->line].node[arm->end]].at;
+      bool                 fat = !b->s->dot && celd_search_room (b->s, node) > FAT * w;
+      double               length, last;
 
-      if (!is_free (b, arm, &length) || (length < LONG * w && !fat && !goes_on (b, arm)))
+      if (!is_free (b, arm, &length) || (length < CELD_ARM_LONG * w && !fat && !goes_on (b, arm)))
         continue;
-      while (celd_search_room (b->s, celd_moved (arm->at, arm->way, d + 1)) > 0)
-        d++;
-      status = add_place (b, celd_moved (arm->at, arm->way, fmax (0, d - 0.5 * w)));
+      last   = painted_up_to (b->s, arm, 1, 1, INFINITY) - 1;
+      status = add_place (b, celd_moved (arm->at, arm->way, fmax (0, last - 0.5 * w)));
     }
   return status;
 }
 
-/* ------------------------------------------------------------------ where lines meet */
-
-static CeldStatus
-add_meeting (PlaceBuild *b, CeldPoint at, double weight)
-{
-  return b->n_meetings < MOST_MEET ? celd_append (b->meeting, b->n_meetings, b->meeting_capacity,
-                                                  ((Meeting) { at, weight, 0 })) : CELD_OK;
-}
-
-/* Where two lines meet that are led on. */
-static CeldStatus
-meet (PlaceBuild *b, const Arm *p, const Arm *q)
-{
-  double    w = b->s->width, cross = p->way.x * q->way.y - p->way.y * q->way.x, along[2];
-  CeldPoint off = { q->at.x - p->at.x, q->at.y - p->at.y }, at;
-
-  if (fmin (p->length, q->length) < BARB * w || fmax (p->length, q->length) < LONG * w || fabs (cross) < LEAST_TURN ||
-      (p->line == q->line && p->length < 8 * w) || hypot (off.x, off.y) > 10 * w)
-    return CELD_OK;
-  along[0] = (off.x * q->way.y - off.y * q->way.x) / cross;
-  along[1] = (off.x * p->way.y - off.y * p->way.x) / cross;
-  at       = celd_moved (p->at, p->way, along[0]);
-  if (fmin (along[0], along[1]) < -PLACE_NEAR_END * w || fmax (along[0], along[1]) > PLACE_MOST_LED * w ||
-      celd_search_room (b->s, at) < 0.2 * w)
-    return CELD_OK;
-  return add_meeting (b, at, fabs (cross) * (p->length > 6 * w ? 1 : 0.5) * (q->length > 6 * w ? 1 : 0.5));
-}
-
-/* The tips of heads that fit where a line is led on. */
-static CeldStatus
-find_tips (PlaceBuild *b, const Arm *arm)
-{
-  double     w = b->s->width;
-  CeldStatus status = CELD_OK;
-
-  for (double d = 0; d < HEAD_LED * w && status == CELD_OK; d += HEAD_STEP * w)
-    {
-      CeldPoint p = celd_moved (arm->at, arm->way, d);
-
-      if (celd_search_room (b->s, p) <= 0 && d > 2 * w)
-        break;
-      for (int kind = CELD_OUTLINE_OPEN; kind <= CELD_OUTLINE_FILLED && status == CELD_OK; kind++)
-        {
-          CeldHeadOutline head = celd_search_head_fit (b->s, (CeldOutlineKind) kind, p, arm->way, NULL);
-
-          if (head.cost < HEAD_COST)
-            status = add_meeting (b, head.tip, HEAD_VOTES * (1 - head.cost));
-        }
-    }
-  return status;
-}
-
-static double
-share (const PlaceBuild *b, const Meeting *one, const Meeting *other)
-{
-  return other->weight * fmax (0, 1 - celd_points_apart (one->at, other->at) / (CLUSTER * b->s->width));
-}
-
-/* Adds the places where most lines meet, from the most on. */
 static CeldStatus
 add_meetings (PlaceBuild *b)
 {
-  CeldStatus status = CELD_OK;
+  CeldPoint *place;
+  size_t     n;
+  CeldStatus status = celd_search_votes_count (b->s, b->arm, b->n_arms, &place, &n);
 
-  for (size_t i = 0; i < b->n_meetings; i++)
-    for (size_t k = 0; k < b->n_meetings; k++)
-      b->meeting[i].votes += share (b, &b->meeting[i], &b->meeting[k]);
-  while (status == CELD_OK)
-    {
-      const Meeting *best = NULL;
-      CeldPoint      mean = { 0, 0 }, centre;
-      double         sum = 0;
-
-      for (size_t i = 0; i < b->n_meetings; i++)
-        if (b->meeting[i].votes >= (best ? best->votes : LEAST_VOTES) && (!best || b->meeting[i].votes > best->votes))
-          best = &b->meeting[i];
-      if (!best)
-        break;
-      centre = best->at;
-      for (size_t i = 0; i < b->n_meetings; i++)
-        {
-          double weight = share (b, best, &b->meeting[i]);
-
-          sum    += weight;
-          mean.x += weight * b->meeting[i].at.x;
-          mean.y += weight * b->meeting[i].at.y;
-        }
-      status = add_place (b, (CeldPoint) { mean.x / sum, mean.y / sum });
-      for (size_t i = 0; i < b->n_meetings; i++)
-        if (celd_points_apart (b->meeting[i].at, centre) < CLUSTER * b->s->width)
-          b->meeting[i].votes = 0;
-    }
+  for (size_t i = 0; i < n && status == CELD_OK; i++)
+    status = add_place (b, place[i]);
+  celd_free (place);
   return status;
 }
 
@@ -282,11 +186,11 @@ add_narrows (PlaceBuild *b)
 
   for (size_t i = 0; i < b->n_arms && status == CELD_OK; i++)
     {
-      const Arm *arm = &b->arm[i];
-      CeldPoint  across = { -0.25 * arm->way.y, 0.25 * arm->way.x };
-      double     most = 0;
+      const CeldStrokeArm *arm = &b->arm[i];
+      CeldPoint            across = { -0.25 * arm->way.y, 0.25 * arm->way.x };
+      double               most = 0;
 
-      for (double d = 0; d < HEAD_LED * w && arm->length > 4.5 * w; d += 0.1 * w)
+      for (double d = 0; d < CELD_ARM_LED * w && arm->length > 4.5 * w; d += 0.1 * w)
         {
           CeldPoint p = celd_moved (arm->at, arm->way, d);
           double    room = 0;
@@ -385,28 +289,12 @@ add_blobs (PlaceBuild *b, const CeldStrokeLine *line)
 /* ------------------------------------------------------------------ all places */
 
 static CeldStatus
-find_meetings (PlaceBuild *b)
-{
-  CeldStatus status = CELD_OK;
-
-  for (size_t i = 0; i < b->n_arms; i++)
-    for (size_t k = i + 1; k < b->n_arms && status == CELD_OK; k++)
-      status = meet (b, &b->arm[i], &b->arm[k]);
-  for (size_t i = 0; i < b->n_arms && status == CELD_OK && !b->s->dot; i++)
-    if (b->arm[i].length > 4 * b->s->width)
-      status = find_tips (b, &b->arm[i]);
-  return status;
-}
-
-static CeldStatus
 find_places (PlaceBuild *b)
 {
   CeldStatus status = find_arms (b);
 
   for (size_t k = 0; k < b->raw.n_lines && status == CELD_OK && b->s->dot; k++)
     status = add_blobs (b, &b->raw.line[k]);
-  if (status == CELD_OK)
-    status = find_meetings (b);
   if (status == CELD_OK)
     status = add_meetings (b);
   if (status == CELD_OK)
@@ -430,7 +318,6 @@ celd_search_places_find (CeldArrowSearch *search)
     status = find_places (&b);
   celd_free (b.degree);
   celd_free (b.arm);
-  celd_free (b.meeting);
   celd_stroke_graph_clear (&b.raw);
   return status;
 }
