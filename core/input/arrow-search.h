@@ -20,8 +20,8 @@
  * it is from its chord at most, by the length of that. */
 typedef struct { size_t place[2]; CeldPoint *at; size_t n; double length, cost, bow; } CeldShaft;
 
-/* Cells of paint; bare: how many of them nothing that is chosen covers. */
-typedef struct { uint32_t *cell; size_t n, bare; } CeldPaintPiece;
+/* Cells of paint. */
+typedef struct { uint32_t *cell; size_t n; } CeldPaintPiece;
 
 /* An arrow that may be chosen: a shaft with a head, or a dot, at one of its ends.  cost: without what it explains;
  * mark_cost: the part of that for what is not painted of the head or dot. */
@@ -51,6 +51,7 @@ typedef struct
   uint32_t             *first, *piece_at; /* the pieces of cell c: piece_at[first[c] .. first[c + 1]] */
   CeldPaintPiece       *piece;
   size_t                n_pieces, piece_capacity;
+  uint32_t             *bare;    /* of each piece: how many of its cells nothing that is chosen covers */
 
   CeldArrowOption      *option;
   size_t                n_options, option_capacity;

@@ -33,6 +33,7 @@ search_clear (CeldArrowSearch *s)
   celd_free (s->first);
   celd_free (s->piece_at);
   celd_free (s->piece);
+  celd_free (s->bare);
   celd_free (s->option);
   celd_free (s->chosen);
   celd_free (s->banned);

@@ -69,7 +69,7 @@ cover (CeldArrowSearch *s, size_t k)
 
       if (s->covers[c]++ == 0)
         for (uint32_t j = s->first[c]; j < s->first[c + 1]; j++)
-          s->piece[s->piece_at[j]].bare--;
+          s->bare[s->piece_at[j]]--;
     }
 }
 
@@ -82,7 +82,7 @@ uncover (CeldArrowSearch *s, size_t k)
 
       if (--s->covers[c] == 0)
         for (uint32_t j = s->first[c]; j < s->first[c + 1]; j++)
-          s->piece[s->piece_at[j]].bare++;
+          s->bare[s->piece_at[j]]++;
     }
 }
 
@@ -116,9 +116,9 @@ static size_t
 bare_cells (CeldArrowSearch *s, const CeldArrowOption *o)
 {
   const CeldPaintPiece *body = &s->piece[o->body], *mark = &s->piece[o->mark];
-  size_t           n = body->bare;
+  size_t                n = s->bare[o->body];
 
-  if (!mark->bare)
+  if (!s->bare[o->mark])
     return n;
   s->tick++;
   for (size_t i = 0; i < body->n; i++)
@@ -207,7 +207,7 @@ celd_search_add (CeldArrowSearch *s, size_t most)
       for (size_t k = 0; k < s->n_options; k++)
         {
           const CeldArrowOption *o = &s->option[k];
-          double                 gain = s->area * (double) (s->piece[o->body].bare + s->piece[o->mark].bare), change;
+          double                 gain = s->area * (double) (s->bare[o->body] + s->bare[o->mark]), change;
 
           if (s->chosen[k] || s->banned[k] || o->cost - gain >= least || own_cost (s, o) - gain >= least)
             continue;

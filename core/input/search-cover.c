@@ -105,7 +105,7 @@ gather (Gather *g, const CeldPoint *corner, int n, double reach)
 static CeldStatus
 piece_from (Gather *g, size_t *number)
 {
-  CeldPaintPiece  piece = { .cell = celd_alloc (g->n + 1, sizeof *piece.cell), .n = g->n, .bare = g->n };
+  CeldPaintPiece  piece = { .cell = celd_alloc (g->n + 1, sizeof *piece.cell), .n = g->n };
   CeldStatus status;
 
   if (!piece.cell)
@@ -231,7 +231,7 @@ add_dots (Gather *g, double *cost)
   return status;
 }
 
-/* Lists the pieces of each cell. */
+/* Lists the pieces of each cell; all of them are bare. */
 static CeldStatus
 index_pieces (CeldArrowSearch *s)
 {
@@ -241,8 +241,11 @@ index_pieces (CeldArrowSearch *s)
   for (size_t k = 0; k < s->n_pieces; k++)
     all += s->piece[k].n;
   s->piece_at = celd_alloc (all + 1, sizeof *s->piece_at);
-  if (!s->first || !s->piece_at)
+  s->bare     = celd_alloc (s->n_pieces + 1, sizeof *s->bare);
+  if (!s->first || !s->piece_at || !s->bare)
     return CELD_NO_MEMORY;
+  for (size_t k = 0; k < s->n_pieces; k++)
+    s->bare[k] = (uint32_t) s->piece[k].n;
   for (size_t k = 0; k < s->n_pieces; k++)
     for (size_t i = 0; i < s->piece[k].n; i++)
       s->first[s->piece[k].cell[i] + 2]++;

@@ -28,6 +28,7 @@
 #define OPEN_LENGTH   3    /* of a barb, at least */
 #define OPEN_ROOM     0.22 /* from a barb to the edge of its paint, and a third of a pixel less */
 #define OPEN_WORTH    0.5  /* of a barb beside the shaft, by its length */
+#define OPEN_MOST     2.5  /* that a barb is worth */
 #define FILLED_LEAST  0.42 /* as for open heads */
 #define FILLED_TURN   0.09
 #define FILLED_TURNS  4
@@ -36,7 +37,9 @@
 #define FILLED_STEPS  4    /* ... of which there are so many */
 #define FILLED_AHEAD  0.4  /* from where a line ends to the tip of the triangle */
 #define FILLED_BARE   2    /* cost of what is not painted while heads are compared */
-#define FIT_SAMPLES   8    /* of a side of a triangle */
+#define FILLED_MOST   6.5  /* that half a head is worth, for its area */
+#define FIT_SAMPLES   8    /* of a side of a triangle, ... */
+#define ALL_SAMPLES   (FIT_SAMPLES * (FIT_SAMPLES + 1) / 2) /* ... and of all of it */
 #define BARE          1.5  /* cost of what is not painted, by area */
 #define FIT_OFF       0.2  /* cost of a tip that is off its place, by the distance */
 #define DOT_STEP      0.25 /* between places that are tried for the centre of a dot, ... */
@@ -87,68 +90,79 @@ painted_length (const CeldArrowSearch *s, CeldPoint tip, CeldPoint way, const ui
 
 /* The best barb of an open head on one side: its end; *bare: what is not painted.  Returns what it costs. */
 static double
-fit_open (const CeldArrowSearch *s, CeldPoint tip, double angle, int side, const uint8_t *shaft, CeldPoint *end,
+fit_open (const CeldArrowSearch *s, CeldPoint tip, const CeldPoint *way, const uint8_t *shaft, CeldPoint *end,
           double *bare)
 {
   double best = INFINITY;
 
   for (int k = 0; k < OPEN_TURNS; k++)
     {
-      CeldPoint way = direction (angle + CELD_PI + side * (OPEN_LEAST + OPEN_TURN * k));
-      double    beside, run = painted_length (s, tip, way, shaft, &beside), missing = fmax (0, OPEN_LENGTH - run);
-      double    cost = BARE * missing - OPEN_WORTH * beside + OPEN_UNUSUAL * fabs (k - OPEN_USUAL);
+      double beside, run = painted_length (s, tip, way[k], shaft, &beside), missing = fmax (0, OPEN_LENGTH - run);
+      double cost = BARE * missing - OPEN_WORTH * beside + OPEN_UNUSUAL * fabs (k - OPEN_USUAL);
 
       if (cost < best)
         {
           best  = cost;
           *bare = missing;
-          *end  = celd_moved (tip, way, run * s->width);
+          *end  = celd_moved (tip, way[k], run * s->width);
         }
     }
   return best;
 }
 
-/* The part of a triangle that is not painted, and the part that is painted beside the shaft. */
-static void
-sample_triangle (const CeldArrowSearch *s, CeldPoint a, CeldPoint b, CeldPoint c, const uint8_t *shaft, double *bare,
-                 double *beside)
+/* Counts samples of a triangle: those that are not painted (*bare), and those that are beside the shaft.  Returns false
+ * as soon as bare ones, and half as many others on the shaft, are more than `most`: corner b is the first, where most
+ * triangles are seen not to fit. */
+static bool
+sample_triangle (const CeldArrowSearch *s, CeldPoint a, CeldPoint b, CeldPoint c, const uint8_t *shaft, double most,
+                 int *bare, int *beside)
 {
-  int all = 0, n_bare = 0, n_beside = 0;
+  int on = 0;
 
-  for (int i = 0; i < FIT_SAMPLES; i++)
-    for (int k = 0; k < FIT_SAMPLES - i; k++)
-      {
-        double    u = (i + 0.33) / FIT_SAMPLES, v = (k + 0.33) / FIT_SAMPLES;
-        CeldPoint p = { a.x + u * (b.x - a.x) + v * (c.x - a.x), a.y + u * (b.y - a.y) + v * (c.y - a.y) };
-        bool      painted = celd_search_room (s, p) > 0;
+  *bare = *beside = 0;
+  for (int i = FIT_SAMPLES - 1; i >= 0; i--)
+    {
+      for (int k = 0; k < FIT_SAMPLES - i; k++)
+        {
+          double    u = (i + 0.33) / FIT_SAMPLES, v = (k + 0.33) / FIT_SAMPLES;
+          CeldPoint p = { a.x + u * (b.x - a.x) + v * (c.x - a.x), a.y + u * (b.y - a.y) + v * (c.y - a.y) };
 
-        all++;
-        n_bare   += !painted;
-        n_beside += painted && is_beside (s, p, shaft);
-      }
-  *bare   = (double) n_bare / all;
-  *beside = (double) n_beside / all;
+          if (celd_search_room (s, p) <= 0)
+            ++*bare;
+          else if (is_beside (s, p, shaft))
+            ++*beside;
+          else
+            on++;
+        }
+      if ((FILLED_BARE + 1) * *bare + on > most)
+        return false;
+    }
+  return true;
 }
 
-/* The same for the half of a filled head on one side of its axis. */
+/* The same for the half of a filled head on one side of its axis, `back`.  INFINITY: it costs at least `most`. */
 static double
-fit_filled (const CeldArrowSearch *s, CeldPoint tip, CeldPoint ahead, double angle, int side, const uint8_t *shaft,
-            CeldPoint *end, double *bare)
+fit_filled (const CeldArrowSearch *s, CeldPoint tip, CeldPoint ahead, CeldPoint back, const CeldPoint *way,
+            const uint8_t *shaft, double most, CeldPoint *end, double *bare)
 {
   double best = INFINITY, w = s->width;
 
   for (int k = 0; k < FILLED_TURNS; k++)
     for (int l = 0; l < FILLED_STEPS; l++)
       {
-        double    turn = FILLED_LEAST + FILLED_TURN * k, length = (FILLED_LENGTH + FILLED_LONGER * l) * w;
-        CeldPoint corner = celd_moved (tip, direction (angle + CELD_PI + side * turn), length);
-        CeldPoint back = celd_moved (tip, direction (angle + CELD_PI), length * cos (turn));
-        double    area = fabs ((corner.x - ahead.x) * (back.y - ahead.y) - (corner.y - ahead.y) * (back.x - ahead.x));
-        double    missing, beside, cost;
+        double    length = (FILLED_LENGTH + FILLED_LONGER * l) * w;
+        CeldPoint corner = celd_moved (tip, way[k], length);
+        CeldPoint foot = celd_moved (tip, back, length * cos (FILLED_LEAST + FILLED_TURN * k));
+        double    area = fabs ((corner.x - ahead.x) * (foot.y - ahead.y) - (corner.y - ahead.y) * (foot.x - ahead.x));
+        double    cost, missing;
+        int       n_bare, n_beside;
 
-        sample_triangle (s, ahead, corner, back, shaft, &missing, &beside);
         area /= 2 * w * w;
-        cost  = area * (FILLED_BARE * missing - beside);
+        if (!sample_triangle (s, ahead, corner, foot, shaft,
+                              ALL_SAMPLES * (1 + fmin (best, most) / area) + 1e-6, &n_bare, &n_beside))
+          continue;
+        missing = (double) n_bare / ALL_SAMPLES;
+        cost    = area * (FILLED_BARE * missing - (double) n_beside / ALL_SAMPLES);
         if (cost < best)
           {
             best  = cost;
@@ -157,6 +171,39 @@ fit_filled (const CeldArrowSearch *s, CeldPoint tip, CeldPoint ahead, double ang
           }
       }
   return best;
+}
+
+/* The directions of a head that are tried: of its axis, backwards, and of the barbs on either side. */
+typedef struct { CeldPoint back, way[2][OPEN_TURNS]; } HeadWays;
+
+static HeadWays
+ways_of (bool filled, double angle)
+{
+  HeadWays ways = { .back = direction (angle + CELD_PI) };
+
+  for (int k = 0; k < (filled ? FILLED_TURNS : OPEN_TURNS); k++)
+    for (int side = 0; side < 2; side++)
+      {
+        double turn = filled ? FILLED_LEAST + FILLED_TURN * k : OPEN_LEAST + OPEN_TURN * k;
+
+        ways.way[side][k] = direction (angle + CELD_PI + (1 - 2 * side) * turn);
+      }
+  return ways;
+}
+
+/* The best head with a certain tip: the ends of its barbs, and what of them is not painted.  Returns what it costs, or
+ * some more if that is at least `most`. */
+static double
+fit_both (const CeldArrowSearch *s, bool filled, CeldPoint tip, CeldPoint ahead, const HeadWays *ways,
+          const uint8_t *shaft, double cost, double most, CeldPoint *end, double *bare)
+{
+  double worth = filled ? FILLED_MOST : OPEN_MOST;
+
+  for (int k = 0; k < 2 && cost - (2 - k) * worth < most; k++)
+    cost += filled ? fit_filled (s, tip, ahead, ways->back, ways->way[k], shaft, most - cost + (1 - k) * worth, &end[k],
+                                 &bare[k])
+                   : fit_open (s, tip, ways->way[k], shaft, &end[k], &bare[k]);
+  return cost;
 }
 
 CeldHeadOutline
@@ -169,26 +216,28 @@ celd_search_head_fit (const CeldArrowSearch *s, CeldOutlineKind kind, CeldPoint 
   CeldHeadOutline head = { .kind = kind };
 
   for (int turn = -1; turn <= 1; turn++)
-    for (int on = -TIP_BEHIND; on <= TIP_AHEAD; on++)
-      for (int off = -1; off <= 1; off++)
-        {
-          CeldPoint on_axis = celd_moved (place, way, on * FIT_TIP_STEP * w), end[2];
-          CeldPoint tip = celd_moved (on_axis, across, off * FIT_TIP_STEP * w);
-          CeldPoint ahead = celd_moved (tip, way, FILLED_AHEAD * w);
-          double    bare[2], cost = (filled ? FILLED_OFF : OPEN_OFF) * (abs (turn) + abs (on) + abs (off));
+    {
+      HeadWays ways = ways_of (filled, angle + turn * TIP_TURN);
 
-          for (int k = 0; k < 2; k++)
-            cost += filled ? fit_filled (s, tip, ahead, angle + turn * TIP_TURN, 1 - 2 * k, shaft, &end[k], &bare[k])
-                           : fit_open (s, tip, angle + turn * TIP_TURN, 1 - 2 * k, shaft, &end[k], &bare[k]);
-          if (cost < best)
-            {
-              double apart = FIT_OFF * celd_points_apart (tip, place) / w;
+      for (int on = -TIP_BEHIND; on <= TIP_AHEAD; on++)
+        for (int off = -1; off <= 1; off++)
+          {
+            CeldPoint on_axis = celd_moved (place, way, on * FIT_TIP_STEP * w), end[2] = { 0 };
+            CeldPoint tip = celd_moved (on_axis, across, off * FIT_TIP_STEP * w);
+            CeldPoint ahead = celd_moved (tip, way, FILLED_AHEAD * w);
+            double    bare[2] = { 0 }, cost = (filled ? FILLED_OFF : OPEN_OFF) * (abs (turn) + abs (on) + abs (off));
 
-              best = cost;
-              head = (CeldHeadOutline) { kind, tip, { end[0], end[1] }, 0, BARE * (bare[0] + bare[1]) };
-              head.cost += filled ? BARE * apart : apart;
-            }
-        }
+            cost = fit_both (s, filled, tip, ahead, &ways, shaft, cost, best, end, bare);
+            if (cost < best)
+              {
+                double apart = FIT_OFF * celd_points_apart (tip, place) / w;
+
+                best = cost;
+                head = (CeldHeadOutline) { kind, tip, { end[0], end[1] }, 0, BARE * (bare[0] + bare[1]) };
+                head.cost += filled ? BARE * apart : apart;
+              }
+          }
+    }
   return head;
 }
 

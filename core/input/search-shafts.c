@@ -42,6 +42,7 @@ typedef struct
   int                    steps, half;         /* of units on either side of the chord */
   int                    low, high;           /* units that the last column has */
   int                    end;                 /* units that a line may be off at its ends */
+  double                 bend[2 * WAYS];      /* what it costs to turn by so many units, from 1 - WAYS on */
   State                 *state;
   size_t                 capacity;
 } Chord;
@@ -90,15 +91,18 @@ end_cost (const Chord *c, int unit)
 static int
 cheapest_before (const Chord *c, int column, int unit, int way, double *cost)
 {
-  int best = 0;
+  const State *from = state_at (c, column - 1, unit, 0);
+  int          best = 0;
 
   *cost = INFINITY;
   for (int e = 0; e < WAYS; e++)
     {
-      double turn = (double) (way - e) / UNITS, before = state_at (c, column - 1, unit, e)->cost;
+      double before = from[e].cost;
 
+      if (before >= *cost)
+        continue;
       if (column > 1)
-        before += BEND_COST * turn * turn * c->s->width / c->step;
+        before += c->bend[way - e + WAYS - 1];
       if (before < *cost)
         {
           *cost = before;
@@ -223,6 +227,12 @@ try_pair (CeldArrowSearch *s, Chord *c, size_t a, size_t b)
   c->unit   = c->step / UNITS;
   c->half   = (int) ceil ((MOST_BOW * c->length + MORE_BOW * s->width) / c->unit);
   c->end    = (int) (END_OFF * s->width / c->unit);
+  for (int k = 0; k < 2 * WAYS; k++)
+    {
+      double turn = (double) (k + 1 - WAYS) / UNITS;
+
+      c->bend[k] = BEND_COST * turn * turn * s->width / c->step;
+    }
   n         = (size_t) (c->steps + 1) * (size_t) (2 * c->half + 1) * WAYS;
   if (n > c->capacity)
     {
