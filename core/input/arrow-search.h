@@ -185,15 +185,16 @@ void celd_search_margins_find (CeldArrowSearch *search, double *margin);
 
 /* ------------------------------------------------------------------ search-clear.c */
 
-/* Of each chosen option: why its arrow is unclear.  margin is that of celd_search_margins_find; `unclear` has room for
- * CELD_MOST_CHOSEN. */
-CeldStatus celd_search_clear_find (CeldArrowSearch *search, const CeldJoinedLines *lines, const double *margin,
-                                   CeldArrowReason *unclear);
+/* Of each chosen option: why its arrow is unclear.  margin is that of celd_search_margins_find, `other` those of the
+ * lines; `unclear` has room for CELD_MOST_CHOSEN. */
+CeldStatus celd_search_clear_find (CeldArrowSearch *search, const CeldJoinedLines *lines, const CeldLineArrow *other,
+                                   const double *margin, CeldArrowReason *unclear);
 
 /* ------------------------------------------------------------------ search-arrows.c */
 
-/* The arrows of lines->mask, and a graph whose lines they are; the caller clears and frees both in any case.  *arrows is
- * NULL if there may be too many. */
-CeldStatus celd_search_arrows_read (const CeldJoinedLines *lines, CeldStrokeGraph *graph, CeldLineArrow **arrows);
+/* The arrows of lines->mask, and a graph whose lines they are; the caller clears and frees both in any case.  other: the
+ * arrows of the lines, as they are read one by one.  *arrows is NULL if there may be too many. */
+CeldStatus celd_search_arrows_read (const CeldJoinedLines *lines, const CeldLineArrow *other, CeldStrokeGraph *graph,
+                                    CeldLineArrow **arrows);
 
 #endif

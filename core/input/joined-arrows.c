@@ -137,7 +137,7 @@ read_marks (CeldJoinedLines *s, CeldLineArrow **arrows)
 
   if (status != CELD_OK || s->cover)
     return status;
-  status = celd_search_arrows_read (s, &other.graph, &found);
+  status = celd_search_arrows_read (s, *arrows, &other.graph, &found);
   if (status == CELD_OK && found && count_clear (&other, found) > count_clear (s, *arrows))
     {
       CeldStrokeGraph graph = s->graph;

@@ -16,6 +16,10 @@
 
 #define MOST_PLACES 120  /* of connected paint; more are a drawing; ... */
 #define MOST_SHAFTS 1200 /* ... so are more of these: the search would take seconds; chosen */
+#define LED_FROM    4.5  /* widths from the end of a line from where it is led on straight to others, ... */
+#define LED_TO      1.5  /* ... through the point so far from there; chosen */
+#define LED_REACH   2    /* widths between ends of lines that are led on to one place; chosen */
+#define MOST_LED_FROM 0.6 /* of the length of a line; chosen */
 
 static void
 search_clear (CeldArrowSearch *s)
@@ -99,6 +103,41 @@ line_of (const CeldShaft *shaft, CeldStrokeLine *line)
   return status;
 }
 
+/* The point of a shaft at a distance from one of its ends, along the chord. */
+static CeldPoint
+point_of (const CeldShaft *shaft, int end, double distance)
+{
+  double i = fmin (distance / shaft->length, MOST_LED_FROM) * (double) (shaft->n - 1);
+  double at = end ? (double) (shaft->n - 1) - i : i;
+  size_t k = (size_t) at;
+
+  return celd_search_between (shaft->at[k], shaft->at[k + 1 < shaft->n ? k + 1 : k], at - (double) k);
+}
+
+/* The place where lines meet that end at a place or next to it, led on straight; the place itself if that is far. */
+static CeldPoint
+meeting_at (const CeldArrowSearch *s, CeldPoint place)
+{
+  CeldLineSums sums = { 0 };
+  CeldPoint    meeting;
+
+  for (size_t k = 0; k < s->choice.n; k++)
+    for (int end = 0; end < 2; end++)
+      {
+        const CeldShaft *shaft = celd_chosen_shaft (s, k);
+
+        if (celd_points_apart (s->place[shaft->place[end]], place) < LED_REACH * s->width)
+          {
+            CeldPoint p = point_of (shaft, end, LED_TO * s->width), q = point_of (shaft, end, LED_FROM * s->width);
+            double    d = celd_points_apart (p, q);
+
+            celd_line_sums_add (&sums, p, (CeldPoint) { (p.x - q.x) / d, (p.y - q.y) / d }, 1);
+          }
+      }
+  meeting = celd_line_sums_point (&sums, place);
+  return celd_points_apart (meeting, place) < LED_REACH * s->width ? meeting : place;
+}
+
 /* Makes the chosen arrows the lines of a graph. */
 static CeldStatus
 make_lines (const CeldArrowSearch *s, const CeldArrowReason *unclear, CeldStrokeGraph *graph, CeldLineArrow *arrows)
@@ -117,7 +156,8 @@ make_lines (const CeldArrowSearch *s, const CeldArrowReason *unclear, CeldStroke
       if (status != CELD_OK)
         celd_free (line.at);
       arrows[i] = (CeldLineArrow) {
-        .nearer = celd_option_place (s, o, s->dot), .farther = celd_option_place (s, o, !s->dot),
+        .nearer  = meeting_at (s, celd_option_place (s, o, s->dot)),
+        .farther = meeting_at (s, celd_option_place (s, o, !s->dot)),
         .unclear = unclear[i], .first = i,
       };
     }
@@ -126,19 +166,21 @@ make_lines (const CeldArrowSearch *s, const CeldArrowReason *unclear, CeldStroke
 
 /* Reads the arrows of shafts. */
 static CeldStatus
-read_choice (CeldArrowSearch *s, const CeldJoinedLines *lines, CeldStrokeGraph *graph, CeldLineArrow *arrows)
+read_choice (CeldArrowSearch *s, const CeldJoinedLines *lines, const CeldLineArrow *other, CeldStrokeGraph *graph,
+             CeldLineArrow *arrows)
 {
   double          margin[CELD_MOST_CHOSEN];
   CeldArrowReason unclear[CELD_MOST_CHOSEN];
   CeldStatus      status = find_choice (s, margin);
 
   if (status == CELD_OK)
-    status = celd_search_clear_find (s, lines, margin, unclear);
+    status = celd_search_clear_find (s, lines, other, margin, unclear);
   return status == CELD_OK ? make_lines (s, unclear, graph, arrows) : status;
 }
 
 CeldStatus
-celd_search_arrows_read (const CeldJoinedLines *lines, CeldStrokeGraph *graph, CeldLineArrow **arrows)
+celd_search_arrows_read (const CeldJoinedLines *lines, const CeldLineArrow *other, CeldStrokeGraph *graph,
+                         CeldLineArrow **arrows)
 {
   CeldArrowSearch s = { .mask = &lines->mask, .width = lines->graph.width, .dot = lines->style == CELD_ARROW_DOT };
   bool            many = false;
@@ -149,7 +191,7 @@ celd_search_arrows_read (const CeldJoinedLines *lines, CeldStrokeGraph *graph, C
   if (status == CELD_OK && !many)
     {
       *arrows = celd_alloc0 (CELD_MOST_CHOSEN, sizeof **arrows);
-      status  = *arrows ? read_choice (&s, lines, graph, *arrows) : CELD_NO_MEMORY;
+      status  = *arrows ? read_choice (&s, lines, other, graph, *arrows) : CELD_NO_MEMORY;
     }
   search_clear (&s);
   return status;

@@ -1,8 +1,9 @@
 /* Which of the chosen arrows are clear.
  *
- * An arrow is clear if every other choice that lacks it is clearly worse (search-margins.c), the paint round it is
- * explained, and something shows that it ends where it does.  What people would not be sure of is left out: two lines
- * that may be one, places close to each other, and lines that lie on each other.
+ * An arrow is clear if every other choice that lacks it is worse by a margin (search-margins.c), the paint round it is
+ * explained, and something shows that it ends where it does.  How large a margin is asked for depends on what else speaks
+ * against the arrow, or for it: a head that others hide, a line that may go on, others that end where it does.  Where the
+ * graph of the lines gives the same arrow (joined-heads.c), no margin is needed: both are seldom wrong in the same way.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -11,35 +12,46 @@
 
 #include <math.h>
 
-/* All chosen; lengths are widths of the paint, areas square widths. */
-#define ARROW_CLEAR_MARGIN 1    /* cost by which an arrow must be better than others */
-#define ARROW_MOST_REST    0.5  /* area of unexplained paint round an arrow with a head, ... */
-#define DOT_MOST_REST      0.25 /* ... or a dot, which is no wider: */
-#define REST_ROOM          0.22 /* so far from the edge of the paint, because the width of lines varies, ... */
-#define REST_REACH         1.5  /* ... so near the line, ... */
-#define REST_ENDS          3.5  /* ... or so near its ends */
+/* All chosen; lengths are widths of the paint, areas square widths, margins costs. */
+#define CLEAR_MARGIN       1    /* of an arrow with a head, ... */
+#define CROWD_MARGIN       0.2  /* ... if others that are clear end at its tip, ... */
+#define CROWD              2    /* ... so many at least: heads on each other have small margins; ... */
+#define DOT_MARGIN         0.25 /* ... and of an arrow with a dot */
+#define DOUBT_MARGIN       0.5  /* more for each doubt */
+#define HIDDEN_MARGIN      2    /* of an arrow with a dot of which nothing shows that it ends where it does */
+#define ARROW_MOST_REST    0.35 /* area of unexplained paint that is next to an arrow with a head, ... */
+#define CERTAIN_MOST_REST  1    /* ... or to one that has at least the margin ... */
+#define CERTAIN_MARGIN     3
+#define DOT_MOST_REST      0.25 /* ... or to one with a dot, which is no wider: */
+#define REST_ROOM          0.22 /* so far from the edge of the paint, because the width of lines varies */
 #define ARROW_LEAST_OWN    0.8  /* area of the paint of a head that no line explains */
 #define ARROW_STRAIGHT     0.6  /* radians by which arrows turn that may go on */
 #define ARROW_PASS_TURN    0.45 /* the same where one of several arrows may pass */
 #define WAY_FROM           5    /* from the end of a line to where its direction is measured */
-#define ARROW_APART        3.5  /* between places where arrows end, at least */
+#define ONE_PLACE          2    /* between ends of arrows that are at one place, at most, ... */
+#define ARROW_APART        3.5  /* ... and between those that are not, at least */
+#define CLEAR_PASS         2    /* from a line to a place where others end, at least, ... */
+#define CLEAR_PASS_FROM    3    /* ... so far from the ends of the line */
 #define THROUGH            0.8  /* from a line to a place that it leads through ... */
 #define THROUGH_FROM       6    /* ... so far from its ends */
 #define ON_ANOTHER         0.5  /* between lines that lie on each other, ... */
 #define MOST_ON_ANOTHER    6    /* ... for at most so long */
-#define SHORTEST           6    /* length of an arrow */
+#define SHORTEST           7    /* length of an arrow */
 #define MOST_OF_ARROW      8    /* cost of an arrow that is clear, ... */
 #define MOST_OF_HEAD       1.2  /* ... of its head, ... */
 #define MOST_OF_DOT        0.5  /* ... and of its dot */
 
-/* The chosen arrows, and of each: its margin, and the area of its head or dot that no line explains (seen), and of that
- * what no other head does (own). */
+/* The chosen arrows, and of each: its margin; the area of its head or dot that no line explains (seen), and of that what
+ * no other head does (own); the unexplained paint that is nearer to it than to others; whether the graph gives it, too;
+ * and whether it is clear if others do not count. */
 typedef struct
 {
   CeldArrowSearch       *s;
   const CeldJoinedLines *lines;
+  const CeldLineArrow   *other; /* of the lines */
   const double          *margin;
-  double                 own[CELD_MOST_CHOSEN], seen[CELD_MOST_CHOSEN];
+  double                 own[CELD_MOST_CHOSEN], seen[CELD_MOST_CHOSEN], rest[CELD_MOST_CHOSEN];
+  bool                   agreed[CELD_MOST_CHOSEN], clear[CELD_MOST_CHOSEN];
 } Clearness;
 
 /* Finds what of heads and dots is seen, and their own; arrows share dots. */
@@ -74,42 +86,61 @@ find_own (Clearness *r)
   return CELD_OK;
 }
 
-/* The area of unexplained paint within a distance of a point that is not counted yet. */
 static double
-rest_at (CeldArrowSearch *s, CeldPoint p, double reach)
+distance_to_shaft (const CeldShaft *shaft, CeldPoint p)
 {
-  double rest = 0;
+  double d = INFINITY;
 
-  for (double y = p.y - reach; y <= p.y + reach; y += s->step)
-    for (double x = p.x - reach; x <= p.x + reach; x += s->step)
-      {
-        size_t    c = celd_search_cell (s, (CeldPoint) { x, y });
-        CeldPoint centre;
-
-        if (c == SIZE_MAX || !s->painted[c] || s->covers[c] || s->stamp[c] == s->tick ||
-            hypot (x - p.x, y - p.y) > reach)
-          continue;
-        s->stamp[c] = s->tick;
-        centre = (CeldPoint) { ((double) (c % (size_t) s->columns) + 0.5) * s->step,
-                               ((double) (c / (size_t) s->columns) + 0.5) * s->step };
-        if (celd_search_room (s, centre) > REST_ROOM * s->width)
-          rest += s->step * s->step / (s->width * s->width);
-      }
-  return rest;
+  for (size_t i = 1; i < shaft->n; i++)
+    d = fmin (d, celd_distance_to_part (p, shaft->at[i - 1], shaft->at[i]));
+  return d;
 }
 
-static double
-rest_round (CeldArrowSearch *s, const CeldShaft *shaft)
+/* Finds the unexplained paint that is nearer to each arrow than to others. */
+static void
+find_rest (Clearness *r)
 {
-  double rest = 0;
+  CeldArrowSearch *s = r->s;
 
-  s->tick++;
-  for (int end = 0; end < 2; end++)
-    rest += rest_at (s, s->place[shaft->place[end]], REST_ENDS * s->width);
-  for (size_t i = 1; i < shaft->n; i++)
-    for (int k = 0; k < 4; k++)
-      rest += rest_at (s, celd_search_between (shaft->at[i - 1], shaft->at[i], 0.25 * k), REST_REACH * s->width);
-  return rest;
+  for (int y = 0; y < s->rows; y++)
+    for (int x = 0; x < s->columns; x++)
+      {
+        size_t    c = (size_t) y * (size_t) s->columns + (size_t) x, nearest = 0;
+        CeldPoint p = { (x + 0.5) * s->step, (y + 0.5) * s->step };
+        double    least = INFINITY;
+
+        if (!s->painted[c] || s->covers[c] || celd_search_room (s, p) <= REST_ROOM * s->width)
+          continue;
+        for (size_t k = 0; k < s->choice.n; k++)
+          {
+            double d = distance_to_shaft (celd_chosen_shaft (s, k), p);
+
+            if (d < least)
+              {
+                least   = d;
+                nearest = k;
+              }
+          }
+        r->rest[nearest] += s->step * s->step / (s->width * s->width);
+      }
+}
+
+/* Finds which arrows the graph gives, too. */
+static void
+find_agreed (Clearness *r)
+{
+  const CeldArrowSearch *s = r->s;
+  double                 near = ONE_PLACE * s->width + 2;
+
+  for (size_t i = 0; i < s->choice.n; i++)
+    for (size_t k = 0; k < r->lines->graph.n_lines; k++)
+      {
+        const CeldArrowOption *o = &s->option[s->choice.item[i]];
+
+        r->agreed[i] |= r->other[k].first == k && !r->other[k].unclear &&
+                        celd_points_apart (r->other[k].nearer, celd_option_place (s, o, s->dot)) < near &&
+                        celd_points_apart (r->other[k].farther, celd_option_place (s, o, !s->dot)) < near;
+      }
 }
 
 /* Is one of the arrows that end at a place about straight on from arrow i? */
@@ -154,13 +185,17 @@ is_shown (const Clearness *r, size_t place)
   return false;
 }
 
-/* Is another place near where arrows end? */
+/* Does no arrow end near a place, but not at it? */
 static bool
 is_apart (const CeldArrowSearch *s, size_t place)
 {
   for (size_t p = 0; p < s->n_places; p++)
-    if (p != place && s->arrows_at[p] && celd_points_apart (s->place[p], s->place[place]) < ARROW_APART * s->width)
-      return false;
+    {
+      double d = celd_points_apart (s->place[p], s->place[place]);
+
+      if (s->arrows_at[p] && d >= ONE_PLACE * s->width && d < ARROW_APART * s->width)
+        return false;
+    }
   return true;
 }
 
@@ -184,17 +219,24 @@ is_double (const Clearness *r, size_t i)
   return false;
 }
 
-/* Does an arrow lead through a place, far from its ends? */
+/* Does an arrow lead through a place, up to a distance, so far from its ends? */
 static bool
-leads_through (const CeldArrowSearch *s, size_t k, size_t place)
+leads_through (const CeldArrowSearch *s, size_t k, size_t place, double distance, double from)
 {
   const CeldShaft *shaft = celd_chosen_shaft (s, k);
 
   for (int end = 0; end < 2; end++)
-    if (celd_points_apart (s->place[shaft->place[end]], s->place[place]) < THROUGH_FROM * s->width)
+    if (celd_points_apart (s->place[shaft->place[end]], s->place[place]) < from * s->width)
       return false;
-  for (size_t i = 1; i < shaft->n; i++)
-    if (celd_distance_to_part (s->place[place], shaft->at[i - 1], shaft->at[i]) < THROUGH * s->width)
+  return distance_to_shaft (shaft, s->place[place]) < distance * s->width;
+}
+
+/* Does an arrow pass a place where others end so closely that it may end there, too? */
+static bool
+passes_end (const Clearness *r, size_t i)
+{
+  for (size_t p = 0; p < r->s->n_places; p++)
+    if (r->s->arrows_at[p] && leads_through (r->s, i, p, CLEAR_PASS, CLEAR_PASS_FROM))
       return true;
   return false;
 }
@@ -208,8 +250,8 @@ is_crossed_twice (const Clearness *r, size_t i)
     {
       int n = 0;
 
-      for (size_t k = 0; k < r->s->choice.n && leads_through (r->s, i, p); k++)
-        n += k != i && leads_through (r->s, k, p);
+      for (size_t k = 0; k < r->s->choice.n && leads_through (r->s, i, p, THROUGH, THROUGH_FROM); k++)
+        n += k != i && leads_through (r->s, k, p, THROUGH, THROUGH_FROM);
       if (n > 1)
         return true;
     }
@@ -229,13 +271,7 @@ is_on_another (const Clearness *r, size_t i)
       size_t           n = 0;
 
       for (size_t j = 0; j < a->n && k != i; j++)
-        {
-          bool on = false;
-
-          for (size_t l = 1; l < b->n && !on; l++)
-            on = celd_distance_to_part (a->at[j], b->at[l - 1], b->at[l]) < ON_ANOTHER * s->width;
-          n += on;
-        }
+        n += distance_to_shaft (b, a->at[j]) < ON_ANOTHER * s->width;
       if (n > 1 && (double) (n - 1) * a->length / (double) (a->n - 1) > MOST_ON_ANOTHER * s->width)
         return true;
     }
@@ -292,38 +328,110 @@ may_pass (const Clearness *r, size_t i)
   return false;
 }
 
+/* ------------------------------------------------------------------ what is asked for */
+
+/* Do other clear arrows end at the tip of arrow i? */
+static bool
+is_in_crowd (const Clearness *r, size_t i)
+{
+  const CeldArrowSearch *s = r->s;
+  CeldPoint              tip = celd_option_place (s, &s->option[s->choice.item[i]], true);
+  int                    n = 0;
+
+  for (size_t k = 0; k < s->choice.n; k++)
+    if (k != i && r->clear[k])
+      {
+        const size_t *place = celd_chosen_shaft (s, k)->place;
+
+        n += fmin (celd_points_apart (s->place[place[0]], tip), celd_points_apart (s->place[place[1]], tip)) <
+             ONE_PLACE * s->width;
+      }
+  return n >= CROWD;
+}
+
+/* Is a head or dot seen where arrow i has its own, be it that of another arrow?  If not, strokes without any may meet
+ * there. */
+static bool
+is_any_seen (const Clearness *r, size_t i)
+{
+  const CeldArrowSearch *s = r->s;
+  CeldPoint              tip = celd_option_place (s, &s->option[s->choice.item[i]], true);
+  bool                   any = false;
+
+  for (size_t k = 0; k < s->choice.n; k++)
+    any |= r->seen[k] >= ARROW_LEAST_OWN &&
+           celd_points_apart (celd_option_place (s, &s->option[s->choice.item[k]], true), tip) < ONE_PLACE * s->width;
+  return any;
+}
+
+/* The margin that an arrow needs to be clear. */
+static double
+margin_needed (const Clearness *r, size_t i)
+{
+  const CeldShaft *shaft = celd_chosen_shaft (r->s, i);
+  int              doubts = (r->seen[i] < ARROW_LEAST_OWN) + may_pass (r, i) + is_on_another (r, i);
+  double           margin = r->s->dot ? DOT_MARGIN : is_in_crowd (r, i) ? CROWD_MARGIN : CLEAR_MARGIN;
+
+  if (doubts)
+    margin = CLEAR_MARGIN + doubts * DOUBT_MARGIN;
+  if (!is_shown (r, shaft->place[0]) || !is_shown (r, shaft->place[1]))
+    margin = r->s->dot ? fmax (margin, HIDDEN_MARGIN) : INFINITY;
+  return is_any_seen (r, i) ? margin : INFINITY;
+}
+
+/* Does nothing round an arrow speak against it, whatever its margin? */
+static bool
+is_explained (const Clearness *r, size_t i)
+{
+  const CeldArrowSearch *s = r->s;
+  const CeldShaft       *shaft = celd_chosen_shaft (s, i);
+  double                 most = s->dot ? DOT_MOST_REST : r->margin[i] < CERTAIN_MARGIN ? ARROW_MOST_REST
+                                : CERTAIN_MOST_REST;
+
+  return r->rest[i] <= most && is_apart (s, shaft->place[0]) && is_apart (s, shaft->place[1]) &&
+         !is_crossed_twice (r, i);
+}
+
 static CeldArrowReason
 why_unclear (const Clearness *r, size_t i)
 {
-  CeldArrowSearch       *s = r->s;
+  const CeldArrowSearch *s = r->s;
   const CeldArrowOption *o = &s->option[s->choice.item[i]];
   const CeldShaft       *shaft = &s->shaft[o->shaft];
   size_t                 tail = shaft->place[1 - o->end];
 
+  if (is_double (r, i))
+    return CELD_REASON_ALIKE;
+  if (r->agreed[i])
+    return is_explained (r, i) && !is_on_another (r, i) ? CELD_REASON_NONE : CELD_REASON_MEETING;
   if (shaft->length < SHORTEST * s->width)
     return CELD_REASON_SHORT;
-  if (is_double (r, i) || r->seen[i] < ARROW_LEAST_OWN || o->mark_cost > (s->dot ? MOST_OF_DOT : MOST_OF_HEAD))
+  if (o->mark_cost > (s->dot ? MOST_OF_DOT : MOST_OF_HEAD))
     return CELD_REASON_ALIKE;
-  if (r->margin[i] < ARROW_CLEAR_MARGIN || s->passed[o->shaft] || o->cost > MOST_OF_ARROW ||
-      rest_round (s, shaft) > (s->dot ? DOT_MOST_REST : ARROW_MOST_REST))
+  if (o->cost > MOST_OF_ARROW || s->passed[o->shaft] || passes_end (r, i) || !is_explained (r, i))
     return CELD_REASON_MEETING;
-  for (int end = 0; end < 2; end++)
-    if (!is_shown (r, shaft->place[end]) || !is_apart (s, shaft->place[end]))
-      return CELD_REASON_MEETING;
-  if (may_pass (r, i) || is_crossed_twice (r, i) || is_on_another (r, i))
-    return CELD_REASON_MEETING;
+  if (r->margin[i] < margin_needed (r, i))
+    return r->seen[i] < ARROW_LEAST_OWN ? CELD_REASON_ALIKE : CELD_REASON_MEETING;
   return s->arrows_at[tail] == 1 && celd_joined_is_at_frame (r->lines, s->place[tail]) ? CELD_REASON_FRAME
                                                                                        : CELD_REASON_NONE;
 }
 
 CeldStatus
-celd_search_clear_find (CeldArrowSearch *search, const CeldJoinedLines *lines, const double *margin,
-                        CeldArrowReason *unclear)
+celd_search_clear_find (CeldArrowSearch *search, const CeldJoinedLines *lines, const CeldLineArrow *other,
+                        const double *margin, CeldArrowReason *unclear)
 {
-  Clearness  r = { .s = search, .lines = lines, .margin = margin };
+  Clearness  r = { .s = search, .lines = lines, .other = other, .margin = margin };
   CeldStatus status = find_own (&r);
 
-  for (size_t i = 0; i < search->choice.n && status == CELD_OK; i++)
+  if (status != CELD_OK)
+    return status;
+  find_rest (&r);
+  find_agreed (&r);
+  for (size_t i = 0; i < search->choice.n; i++)
     unclear[i] = why_unclear (&r, i);
-  return status;
+  for (size_t i = 0; i < search->choice.n; i++)
+    r.clear[i] = !unclear[i];
+  for (size_t i = 0; i < search->choice.n; i++)
+    unclear[i] = why_unclear (&r, i);
+  return CELD_OK;
 }
