@@ -13,11 +13,13 @@
 #include <math.h>
 
 /* All chosen; lengths are widths of the paint, areas square widths, margins costs. */
-#define CLEAR_MARGIN       1    /* of an arrow with a head, ... */
+#define CLEAR_MARGIN       0.75 /* of an arrow with a head, ... */
 #define CROWD_MARGIN       0.2  /* ... if others that are clear end at its tip, ... */
 #define CROWD              2    /* ... so many at least: heads on each other have small margins; ... */
 #define DOT_MARGIN         0.25 /* ... and of an arrow with a dot */
-#define DOUBT_MARGIN       0.5  /* more for each doubt */
+#define DOUBTFUL_MARGIN    1    /* of either if there are doubts, ... */
+#define DOUBT_MARGIN       0.5  /* ... and more for each; ... */
+#define PASS_DOUBTS        2    /* ... so many are one about an arrow with a head that may go on */
 #define HIDDEN_MARGIN      2    /* of an arrow with a dot of which nothing shows that it ends where it does */
 #define ARROW_MOST_REST    0.35 /* area of unexplained paint that is next to an arrow with a head, ... */
 #define CERTAIN_MOST_REST  1    /* ... or to one that has at least the margin ... */
@@ -369,11 +371,12 @@ static double
 margin_needed (const Clearness *r, size_t i)
 {
   const CeldShaft *shaft = celd_chosen_shaft (r->s, i);
-  int              doubts = (r->seen[i] < ARROW_LEAST_OWN) + may_pass (r, i) + is_on_another (r, i);
+  int              passes = r->s->dot ? 1 : PASS_DOUBTS;
+  int              doubts = (r->seen[i] < ARROW_LEAST_OWN) + passes * may_pass (r, i) + is_on_another (r, i);
   double           margin = r->s->dot ? DOT_MARGIN : is_in_crowd (r, i) ? CROWD_MARGIN : CLEAR_MARGIN;
 
   if (doubts)
-    margin = CLEAR_MARGIN + doubts * DOUBT_MARGIN;
+    margin = DOUBTFUL_MARGIN + doubts * DOUBT_MARGIN;
   if (!is_shown (r, shaft->place[0]) || !is_shown (r, shaft->place[1]))
     margin = r->s->dot ? fmax (margin, HIDDEN_MARGIN) : INFINITY;
   return is_any_seen (r, i) ? margin : INFINITY;
