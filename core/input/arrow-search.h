@@ -185,16 +185,17 @@ void celd_search_margins_find (CeldArrowSearch *search, double *margin);
 
 /* ------------------------------------------------------------------ search-clear.c */
 
-/* Of each chosen option: why its arrow is unclear.  margin is that of celd_search_margins_find, `other` those of the
- * lines; `unclear` has room for CELD_MOST_CHOSEN. */
-CeldStatus celd_search_clear_find (CeldArrowSearch *search, const CeldJoinedLines *lines, const CeldLineArrow *other,
+/* Of each chosen option: why its arrow is unclear.  margin is that of celd_search_margins_find; `unclear` has room for
+ * CELD_MOST_CHOSEN.  other: the arrows of the lines, of which some become unclear. */
+CeldStatus celd_search_clear_find (CeldArrowSearch *search, const CeldJoinedLines *lines, CeldLineArrow *other,
                                    const double *margin, CeldArrowReason *unclear);
 
 /* ------------------------------------------------------------------ search-arrows.c */
 
-/* The arrows of lines->mask, and a graph whose lines they are; the caller clears and frees both in any case.  other: the
- * arrows of the lines, as they are read one by one.  *arrows is NULL if there may be too many. */
-CeldStatus celd_search_arrows_read (const CeldJoinedLines *lines, const CeldLineArrow *other, CeldStrokeGraph *graph,
+/* The arrows of lines->mask, and a graph whose lines they are; the caller clears and frees both in any case.  other:
+ * the arrows of the lines as they are read one by one, of which some become unclear.  *arrows is NULL if there may be
+ * too many. */
+CeldStatus celd_search_arrows_read (const CeldJoinedLines *lines, CeldLineArrow *other, CeldStrokeGraph *graph,
                                     CeldLineArrow **arrows);
 
 #endif

@@ -5,7 +5,8 @@
  * passes there.  They are read only if both begin or both end there, or if the head is clear between them.
  *
  * Those with heads or dots are also read by the choice of arrows that explains all their paint best (search-arrows.c).
- * That finds more where many meet, the graph where few do, so what finds more clear arrows counts.
+ * That finds more where many meet, the graph where few do, so what finds more clear arrows counts; where they
+ * contradict each other, nothing is read.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -15,6 +16,7 @@
 #include <math.h>
 
 #define MOST_LINES 100 /* of connected paint; more are a drawing, or hatching; chosen */
+#define SAME_END   2   /* widths, and two pixels, between the same ends of arrows read in two ways; chosen */
 
 static bool
 is_long (const CeldJoinedLines *s, size_t line)
@@ -126,6 +128,19 @@ count_clear (const CeldJoinedLines *s, const CeldLineArrow *arrows)
   return n;
 }
 
+/* Makes arrows unclear that are clear in both ways, but in opposite directions. */
+static void
+leave_contradictions (const CeldJoinedLines *s, CeldLineArrow *one, const CeldJoinedLines *other, CeldLineArrow *found)
+{
+  double near = SAME_END * s->graph.width + 2;
+
+  for (size_t i = 0; i < s->graph.n_lines; i++)
+    for (size_t k = 0; k < other->graph.n_lines; k++)
+      if (!one[i].unclear && !found[k].unclear && celd_points_apart (one[i].nearer, found[k].farther) < near &&
+          celd_points_apart (one[i].farther, found[k].nearer) < near)
+        one[i].unclear = found[k].unclear = CELD_REASON_MEETING;
+}
+
 /* Reads lines with heads or dots in both ways, unless others hide some of their paint.  The lines become those of the
  * way that finds more clear arrows. */
 static CeldStatus
@@ -138,6 +153,8 @@ read_marks (CeldJoinedLines *s, CeldLineArrow **arrows)
   if (status != CELD_OK || s->cover)
     return status;
   status = celd_search_arrows_read (s, *arrows, &other.graph, &found);
+  if (status == CELD_OK && found)
+    leave_contradictions (s, *arrows, &other, found);
   if (status == CELD_OK && found && count_clear (&other, found) > count_clear (s, *arrows))
     {
       CeldStrokeGraph graph = s->graph;

@@ -166,7 +166,7 @@ make_lines (const CeldArrowSearch *s, const CeldArrowReason *unclear, CeldStroke
 
 /* Reads the arrows of shafts. */
 static CeldStatus
-read_choice (CeldArrowSearch *s, const CeldJoinedLines *lines, const CeldLineArrow *other, CeldStrokeGraph *graph,
+read_choice (CeldArrowSearch *s, const CeldJoinedLines *lines, CeldLineArrow *other, CeldStrokeGraph *graph,
              CeldLineArrow *arrows)
 {
   double          margin[CELD_MOST_CHOSEN];
@@ -179,7 +179,7 @@ read_choice (CeldArrowSearch *s, const CeldJoinedLines *lines, const CeldLineArr
 }
 
 CeldStatus
-celd_search_arrows_read (const CeldJoinedLines *lines, const CeldLineArrow *other, CeldStrokeGraph *graph,
+celd_search_arrows_read (const CeldJoinedLines *lines, CeldLineArrow *other, CeldStrokeGraph *graph,
                          CeldLineArrow **arrows)
 {
   CeldArrowSearch s = { .mask = &lines->mask, .width = lines->graph.width, .dot = lines->style == CELD_ARROW_DOT };

@@ -1,9 +1,10 @@
 /* Which of the chosen arrows are clear.
  *
  * An arrow is clear if every other choice that lacks it is worse by a margin (search-margins.c), the paint round it is
- * explained, and something shows that it ends where it does.  How large a margin is asked for depends on what else speaks
- * against the arrow, or for it: a head that others hide, a line that may go on, others that end where it does.  Where the
- * graph of the lines gives the same arrow (joined-heads.c), no margin is needed: both are seldom wrong in the same way.
+ * explained, and something shows that it ends where it does.  How large a margin is asked for depends on what else
+ * speaks against the arrow, or for it: a head that others hide, a line that may go on, others that end where it does.
+ * Where the graph of the lines gives the same arrow (joined-heads.c), hardly any margin is needed: both are seldom
+ * wrong in the same way.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -18,8 +19,8 @@
 #define CROWD              2    /* ... so many at least: heads on each other have small margins; ... */
 #define DOT_MARGIN         0.25 /* ... and of an arrow with a dot */
 #define DOUBTFUL_MARGIN    1    /* of either if there are doubts, ... */
-#define DOUBT_MARGIN       0.5  /* ... and more for each; ... */
-#define PASS_DOUBTS        2    /* ... so many are one about an arrow with a head that may go on */
+#define DOUBT_MARGIN       0.5  /* ... and more for each */
+#define AS_GOOD_MARGIN     0.02 /* of choices that are as good */
 #define HIDDEN_MARGIN      2    /* of an arrow with a dot of which nothing shows that it ends where it does */
 #define ARROW_MOST_REST    0.35 /* area of unexplained paint that is next to an arrow with a head, ... */
 #define CERTAIN_MOST_REST  1    /* ... or to one that has at least the margin ... */
@@ -43,14 +44,13 @@
 #define MOST_OF_HEAD       1.2  /* ... of its head, ... */
 #define MOST_OF_DOT        0.5  /* ... and of its dot */
 
-/* The chosen arrows, and of each: its margin; the area of its head or dot that no line explains (seen), and of that what
- * no other head does (own); the unexplained paint that is nearer to it than to others; whether the graph gives it, too;
- * and whether it is clear if others do not count. */
+/* The chosen arrows, and of each: its margin; the area of its head or dot that no line explains (seen), and of that
+ * what no other head does (own); the unexplained paint that is nearer to it than to others; whether the graph gives it,
+ * too; and whether it is clear if others do not count. */
 typedef struct
 {
   CeldArrowSearch       *s;
   const CeldJoinedLines *lines;
-  const CeldLineArrow   *other; /* of the lines */
   const double          *margin;
   double                 own[CELD_MOST_CHOSEN], seen[CELD_MOST_CHOSEN], rest[CELD_MOST_CHOSEN];
   bool                   agreed[CELD_MOST_CHOSEN], clear[CELD_MOST_CHOSEN];
@@ -127,9 +127,9 @@ find_rest (Clearness *r)
       }
 }
 
-/* Finds which arrows the graph gives, too. */
+/* Finds which arrows the graph gives, too.  Where another choice is as good, it is unclear even so. */
 static void
-find_agreed (Clearness *r)
+compare_with_graph (Clearness *r, CeldLineArrow *other)
 {
   const CeldArrowSearch *s = r->s;
   double                 near = ONE_PLACE * s->width + 2;
@@ -139,9 +139,14 @@ find_agreed (Clearness *r)
       {
         const CeldArrowOption *o = &s->option[s->choice.item[i]];
 
-        r->agreed[i] |= r->other[k].first == k && !r->other[k].unclear &&
-                        celd_points_apart (r->other[k].nearer, celd_option_place (s, o, s->dot)) < near &&
-                        celd_points_apart (r->other[k].farther, celd_option_place (s, o, !s->dot)) < near;
+        if (other[k].first != k || other[k].unclear ||
+            celd_points_apart (other[k].nearer, celd_option_place (s, o, s->dot)) >= near ||
+            celd_points_apart (other[k].farther, celd_option_place (s, o, !s->dot)) >= near)
+          continue;
+        if (r->margin[i] < AS_GOOD_MARGIN)
+          other[k].unclear = CELD_REASON_ALIKE;
+        else
+          r->agreed[i] = true;
       }
 }
 
@@ -371,15 +376,15 @@ static double
 margin_needed (const Clearness *r, size_t i)
 {
   const CeldShaft *shaft = celd_chosen_shaft (r->s, i);
-  int              passes = r->s->dot ? 1 : PASS_DOUBTS;
-  int              doubts = (r->seen[i] < ARROW_LEAST_OWN) + passes * may_pass (r, i) + is_on_another (r, i);
+  bool             passes = may_pass (r, i);
+  int              doubts = (r->seen[i] < ARROW_LEAST_OWN) + passes + is_on_another (r, i);
   double           margin = r->s->dot ? DOT_MARGIN : is_in_crowd (r, i) ? CROWD_MARGIN : CLEAR_MARGIN;
 
   if (doubts)
     margin = DOUBTFUL_MARGIN + doubts * DOUBT_MARGIN;
   if (!is_shown (r, shaft->place[0]) || !is_shown (r, shaft->place[1]))
     margin = r->s->dot ? fmax (margin, HIDDEN_MARGIN) : INFINITY;
-  return is_any_seen (r, i) ? margin : INFINITY;
+  return is_any_seen (r, i) && (r->s->dot || !passes) ? margin : INFINITY;
 }
 
 /* Does nothing round an arrow speak against it, whatever its margin? */
@@ -420,16 +425,16 @@ why_unclear (const Clearness *r, size_t i)
 }
 
 CeldStatus
-celd_search_clear_find (CeldArrowSearch *search, const CeldJoinedLines *lines, const CeldLineArrow *other,
+celd_search_clear_find (CeldArrowSearch *search, const CeldJoinedLines *lines, CeldLineArrow *other,
                         const double *margin, CeldArrowReason *unclear)
 {
-  Clearness  r = { .s = search, .lines = lines, .other = other, .margin = margin };
+  Clearness  r = { .s = search, .lines = lines, .margin = margin };
   CeldStatus status = find_own (&r);
 
   if (status != CELD_OK)
     return status;
   find_rest (&r);
-  find_agreed (&r);
+  compare_with_graph (&r, other);
   for (size_t i = 0; i < search->choice.n; i++)
     unclear[i] = why_unclear (&r, i);
   for (size_t i = 0; i < search->choice.n; i++)
