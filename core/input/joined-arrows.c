@@ -16,7 +16,7 @@
 #include <math.h>
 
 #define MOST_LINES 100 /* of connected paint; more are a drawing, or hatching; chosen */
-#define SAME_END   2   /* widths, and two pixels, between the same ends of arrows read in two ways; chosen */
+#define ENDS_ALIKE 2   /* widths, and two pixels, between the same ends of arrows read in two ways; chosen */
 
 static bool
 is_long (const CeldJoinedLines *s, size_t line)
@@ -132,7 +132,7 @@ count_clear (const CeldJoinedLines *s, const CeldLineArrow *arrows)
 static void
 leave_contradictions (const CeldJoinedLines *s, CeldLineArrow *one, const CeldJoinedLines *other, CeldLineArrow *found)
 {
-  double near = SAME_END * s->graph.width + 2;
+  double near = ENDS_ALIKE * s->graph.width + 2;
 
   for (size_t i = 0; i < s->graph.n_lines; i++)
     for (size_t k = 0; k < other->graph.n_lines; k++)

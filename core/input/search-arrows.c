@@ -14,12 +14,12 @@
 
 #include <math.h>
 
-#define MOST_PLACES 120  /* of connected paint; more are a drawing; ... */
-#define MOST_SHAFTS 1200 /* ... so are more of these: the search would take seconds; chosen */
-#define LED_FROM    4.5  /* widths from the end of a line from where it is led on straight to others, ... */
-#define LED_TO      1.5  /* ... through the point so far from there; chosen */
-#define LED_REACH   2    /* widths between ends of lines that are led on to one place; chosen */
-#define MOST_LED_FROM 0.6 /* of the length of a line; chosen */
+#define MOST_PLACES   120  /* of connected paint; more are a drawing; ... */
+#define MOST_SHAFTS   1200 /* ... so are more of these: the search would take seconds; chosen */
+#define LED_FROM      4.5  /* widths from the end of a line from where it is led on straight to others, ... */
+#define LED_TO        1.5  /* ... through the point so far from there; chosen */
+#define LED_REACH     2    /* widths between ends of lines that are led on to one place; chosen */
+#define MOST_LED_FROM 0.6  /* of the length of a line; chosen */
 
 static void
 search_clear (CeldArrowSearch *s)
@@ -103,7 +103,7 @@ line_of (const CeldShaft *shaft, CeldStrokeLine *line)
   return status;
 }
 
-/* The point of a shaft at a distance from one of its ends, along the chord. */
+/* The point of a shaft at a distance from one of its ends. */
 static CeldPoint
 point_of (const CeldShaft *shaft, int end, double distance)
 {

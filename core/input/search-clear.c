@@ -23,8 +23,8 @@
 #define AS_GOOD_MARGIN     0.02 /* of choices that are as good */
 #define HIDDEN_MARGIN      2    /* of an arrow with a dot of which nothing shows that it ends where it does */
 #define ARROW_MOST_REST    0.35 /* area of unexplained paint that is next to an arrow with a head, ... */
-#define CERTAIN_MOST_REST  1    /* ... or to one that has at least the margin ... */
-#define CERTAIN_MARGIN     3
+#define CERTAIN_MOST_REST  1    /* ... to one that is certain, ... */
+#define CERTAIN_MARGIN     3    /* ... for it has so much of a margin, ... */
 #define DOT_MOST_REST      0.25 /* ... or to one with a dot, which is no wider: */
 #define REST_ROOM          0.22 /* so far from the edge of the paint, because the width of lines varies */
 #define ARROW_LEAST_OWN    0.8  /* area of the paint of a head that no line explains */
@@ -33,8 +33,8 @@
 #define WAY_FROM           5    /* from the end of a line to where its direction is measured */
 #define ONE_PLACE          2    /* between ends of arrows that are at one place, at most, ... */
 #define ARROW_APART        3.5  /* ... and between those that are not, at least */
-#define CLEAR_PASS         2    /* from a line to a place where others end, at least, ... */
-#define CLEAR_PASS_FROM    3    /* ... so far from the ends of the line */
+#define PASS_APART         2    /* from a line to a place where others end, at least, ... */
+#define PASS_APART_FROM    3    /* ... so far from the ends of the line */
 #define THROUGH            0.8  /* from a line to a place that it leads through ... */
 #define THROUGH_FROM       6    /* ... so far from its ends */
 #define ON_ANOTHER         0.5  /* between lines that lie on each other, ... */
@@ -243,7 +243,7 @@ static bool
 passes_end (const Clearness *r, size_t i)
 {
   for (size_t p = 0; p < r->s->n_places; p++)
-    if (r->s->arrows_at[p] && leads_through (r->s, i, p, CLEAR_PASS, CLEAR_PASS_FROM))
+    if (r->s->arrows_at[p] && leads_through (r->s, i, p, PASS_APART, PASS_APART_FROM))
       return true;
   return false;
 }
