@@ -14,19 +14,21 @@
 #include <math.h>
 
 /* All chosen; lengths are widths of the paint, areas square widths, margins costs. */
-#define CLEAR_MARGIN       0.75 /* of an arrow with a head, ... */
-#define CROWD_MARGIN       0.2  /* ... if others that are clear end at its tip, ... */
+#define CLEAR_MARGIN       1    /* of an arrow, ... */
+#define CROWD_MARGIN       0.5  /* ... if others that are clear end at its tip, ... */
 #define CROWD              2    /* ... so many at least: heads on each other have small margins; ... */
-#define DOT_MARGIN         0.25 /* ... and of an arrow with a dot */
-#define DOUBTFUL_MARGIN    1    /* of either if there are doubts, ... */
-#define DOUBT_MARGIN       0.5  /* ... and more for each */
+#define DOT_MARGIN         0.5  /* ... or if it has a dot, ... */
+#define DOUBT_MARGIN       1    /* ... and more for each doubt */
 #define AS_GOOD_MARGIN     0.02 /* of choices that are as good */
-#define HIDDEN_MARGIN      2    /* of an arrow with a dot of which nothing shows that it ends where it does */
 #define ARROW_MOST_REST    0.35 /* area of unexplained paint that is next to an arrow with a head, ... */
 #define CERTAIN_MOST_REST  1    /* ... to one that is certain, ... */
 #define CERTAIN_MARGIN     3    /* ... for it has so much of a margin, ... */
-#define DOT_MOST_REST      0.25 /* ... or to one with a dot, which is no wider: */
-#define REST_ROOM          0.22 /* so far from the edge of the paint, because the width of lines varies */
+#define DOT_MOST_REST      0.25 /* ... or to one with a dot, which is no wider; ... */
+#define ROUND_MOST_REST    0.7  /* ... and round one with a head, even if it is next to others, ... */
+#define DOT_ROUND_REST     0.4  /* ... or one with a dot: */
+#define REST_ROOM          0.22 /* so far from the edge of the paint, because the width of lines varies, ... */
+#define REST_REACH         1.5  /* ... so near the line, ... */
+#define REST_ENDS          3.5  /* ... or so near its ends */
 #define ARROW_LEAST_OWN    0.8  /* area of the paint of a head that no line explains */
 #define ARROW_STRAIGHT     0.6  /* radians by which arrows turn that may go on */
 #define ARROW_PASS_TURN    0.45 /* the same where one of several arrows may pass */
@@ -125,6 +127,44 @@ find_rest (Clearness *r)
           }
         r->rest[nearest] += s->step * s->step / (s->width * s->width);
       }
+}
+
+/* The area of unexplained paint within a distance of a point that is not counted yet. */
+static double
+rest_at (CeldArrowSearch *s, CeldPoint p, double reach)
+{
+  double rest = 0;
+
+  for (double y = p.y - reach; y <= p.y + reach; y += s->step)
+    for (double x = p.x - reach; x <= p.x + reach; x += s->step)
+      {
+        size_t    c = celd_search_cell (s, (CeldPoint) { x, y });
+        CeldPoint centre;
+
+        if (c == SIZE_MAX || !s->painted[c] || s->covers[c] || s->stamp[c] == s->tick ||
+            hypot (x - p.x, y - p.y) > reach)
+          continue;
+        s->stamp[c] = s->tick;
+        centre = (CeldPoint) { ((double) (c % (size_t) s->columns) + 0.5) * s->step,
+                               ((double) (c / (size_t) s->columns) + 0.5) * s->step };
+        if (celd_search_room (s, centre) > REST_ROOM * s->width)
+          rest += s->step * s->step / (s->width * s->width);
+      }
+  return rest;
+}
+
+static double
+rest_round (CeldArrowSearch *s, const CeldShaft *shaft)
+{
+  double rest = 0;
+
+  s->tick++;
+  for (int end = 0; end < 2; end++)
+    rest += rest_at (s, s->place[shaft->place[end]], REST_ENDS * s->width);
+  for (size_t i = 1; i < shaft->n; i++)
+    for (int k = 0; k < 4; k++)
+      rest += rest_at (s, celd_search_between (shaft->at[i - 1], shaft->at[i], 0.25 * k), REST_REACH * s->width);
+  return rest;
 }
 
 /* Finds which arrows the graph gives, too.  Where another choice is as good, it is unclear even so. */
@@ -371,20 +411,19 @@ is_any_seen (const Clearness *r, size_t i)
   return any;
 }
 
-/* The margin that an arrow needs to be clear. */
+/* The margin that an arrow needs to be clear; INFINITY: none would do. */
 static double
 margin_needed (const Clearness *r, size_t i)
 {
   const CeldShaft *shaft = celd_chosen_shaft (r->s, i);
   bool             passes = may_pass (r, i);
   int              doubts = (r->seen[i] < ARROW_LEAST_OWN) + passes + is_on_another (r, i);
-  double           margin = r->s->dot ? DOT_MARGIN : is_in_crowd (r, i) ? CROWD_MARGIN : CLEAR_MARGIN;
 
+  if ((passes && !r->s->dot) || !is_any_seen (r, i) || !is_shown (r, shaft->place[0]) || !is_shown (r, shaft->place[1]))
+    return INFINITY;
   if (doubts)
-    margin = DOUBTFUL_MARGIN + doubts * DOUBT_MARGIN;
-  if (!is_shown (r, shaft->place[0]) || !is_shown (r, shaft->place[1]))
-    margin = r->s->dot ? fmax (margin, HIDDEN_MARGIN) : INFINITY;
-  return is_any_seen (r, i) && (r->s->dot || !passes) ? margin : INFINITY;
+    return CLEAR_MARGIN + doubts * DOUBT_MARGIN;
+  return r->s->dot ? DOT_MARGIN : is_in_crowd (r, i) ? CROWD_MARGIN : CLEAR_MARGIN;
 }
 
 /* Does nothing round an arrow speak against it, whatever its margin? */
@@ -416,7 +455,8 @@ why_unclear (const Clearness *r, size_t i)
     return CELD_REASON_SHORT;
   if (o->mark_cost > (s->dot ? MOST_OF_DOT : MOST_OF_HEAD))
     return CELD_REASON_ALIKE;
-  if (o->cost > MOST_OF_ARROW || s->passed[o->shaft] || passes_end (r, i) || !is_explained (r, i))
+  if (o->cost > MOST_OF_ARROW || s->passed[o->shaft] || passes_end (r, i) || !is_explained (r, i) ||
+      rest_round (r->s, shaft) > (s->dot ? DOT_ROUND_REST : ROUND_MOST_REST))
     return CELD_REASON_MEETING;
   if (r->margin[i] < margin_needed (r, i))
     return r->seen[i] < ARROW_LEAST_OWN ? CELD_REASON_ALIKE : CELD_REASON_MEETING;
