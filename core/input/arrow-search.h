@@ -123,6 +123,8 @@ CeldStatus celd_search_shafts_find (CeldArrowSearch *search);
 /* The direction of a shaft into one of its ends, measured from a distance. */
 CeldPoint celd_shaft_way (const CeldShaft *shaft, int end, double from);
 
+double celd_distance_to_shaft (const CeldShaft *shaft, CeldPoint p);
+
 /* ------------------------------------------------------------------ search-heads.c */
 
 /* The outline of a head or dot: the tip, or the centre, and the ends of barbs; `filled` heads have the tip a little
@@ -182,6 +184,17 @@ bool celd_options_alike (const CeldArrowSearch *search, size_t a, size_t b);
 /* Of each chosen option: what the best choice without it costs more.  The choice may become better.  `margin` has room
  * for CELD_MOST_CHOSEN. */
 void celd_search_margins_find (CeldArrowSearch *search, double *margin);
+
+/* ------------------------------------------------------------------ search-rest.c */
+
+/* Of each chosen arrow, in square widths: the area of its head or dot that no line explains (seen), and of that what no
+ * other head does (own); arrows share dots.  rest: the unexplained paint that is nearer to it than to others. */
+typedef struct { double own[CELD_MOST_CHOSEN], seen[CELD_MOST_CHOSEN], rest[CELD_MOST_CHOSEN]; } CeldChoicePaint;
+
+CeldStatus celd_choice_paint_measure (CeldArrowSearch *search, CeldChoicePaint *paint);
+
+/* The area of unexplained paint round a shaft, in square widths. */
+double celd_rest_round (CeldArrowSearch *search, const CeldShaft *shaft);
 
 /* ------------------------------------------------------------------ search-clear.c */
 

@@ -25,10 +25,7 @@
 #define CERTAIN_MARGIN     3    /* ... for it has so much of a margin, ... */
 #define DOT_MOST_REST      0.25 /* ... or to one with a dot, which is no wider; ... */
 #define ROUND_MOST_REST    0.7  /* ... and round one with a head, even if it is next to others, ... */
-#define DOT_ROUND_REST     0.4  /* ... or one with a dot: */
-#define REST_ROOM          0.22 /* so far from the edge of the paint, because the width of lines varies, ... */
-#define REST_REACH         1.5  /* ... so near the line, ... */
-#define REST_ENDS          3.5  /* ... or so near its ends */
+#define DOT_ROUND_REST     0.4  /* ... or one with a dot */
 #define ARROW_LEAST_OWN    0.8  /* area of the paint of a head that no line explains */
 #define ARROW_STRAIGHT     0.6  /* radians by which arrows turn that may go on */
 #define ARROW_PASS_TURN    0.45 /* the same where one of several arrows may pass */
@@ -46,126 +43,16 @@
 #define MOST_OF_HEAD       1.2  /* ... of its head, ... */
 #define MOST_OF_DOT        0.5  /* ... and of its dot */
 
-/* The chosen arrows, and of each: its margin; the area of its head or dot that no line explains (seen), and of that
- * what no other head does (own); the unexplained paint that is nearer to it than to others; whether the graph gives it,
- * too; and whether it is clear if others do not count. */
+/* The chosen arrows, and of each: its margin, whether the graph gives it, too, and whether it is clear if others do not
+ * count. */
 typedef struct
 {
   CeldArrowSearch       *s;
   const CeldJoinedLines *lines;
   const double          *margin;
-  double                 own[CELD_MOST_CHOSEN], seen[CELD_MOST_CHOSEN], rest[CELD_MOST_CHOSEN];
+  CeldChoicePaint        paint;
   bool                   agreed[CELD_MOST_CHOSEN], clear[CELD_MOST_CHOSEN];
 } Clearness;
-
-/* Finds what of heads and dots is seen, and their own; arrows share dots. */
-static CeldStatus
-find_own (Clearness *r)
-{
-  CeldArrowSearch *s = r->s;
-  uint16_t        *marks = celd_alloc0 ((size_t) s->columns * (size_t) s->rows, sizeof *marks);
-  double           area = s->step * s->step / (s->width * s->width);
-
-  if (!marks)
-    return CELD_NO_MEMORY;
-  for (int pass = 0; pass < 2; pass++)
-    for (size_t i = 0; i < s->choice.n; i++)
-      {
-        const CeldPaintPiece *mark = &s->piece[s->option[s->choice.item[i]].mark];
-
-        for (size_t k = 0; k < mark->n; k++)
-          {
-            size_t c = mark->cell[k];
-
-            if (!pass)
-              marks[c]++;
-            else if (s->covers[c] == marks[c])
-              {
-                r->seen[i] += area;
-                r->own[i] += s->dot || marks[c] == 1 ? area : 0;
-              }
-          }
-      }
-  celd_free (marks);
-  return CELD_OK;
-}
-
-static double
-distance_to_shaft (const CeldShaft *shaft, CeldPoint p)
-{
-  double d = INFINITY;
-
-  for (size_t i = 1; i < shaft->n; i++)
-    d = fmin (d, celd_distance_to_part (p, shaft->at[i - 1], shaft->at[i]));
-  return d;
-}
-
-/* Finds the unexplained paint that is nearer to each arrow than to others. */
-static void
-find_rest (Clearness *r)
-{
-  CeldArrowSearch *s = r->s;
-
-  for (int y = 0; y < s->rows; y++)
-    for (int x = 0; x < s->columns; x++)
-      {
-        size_t    c = (size_t) y * (size_t) s->columns + (size_t) x, nearest = 0;
-        CeldPoint p = { (x + 0.5) * s->step, (y + 0.5) * s->step };
-        double    least = INFINITY;
-
-        if (!s->painted[c] || s->covers[c] || celd_search_room (s, p) <= REST_ROOM * s->width)
-          continue;
-        for (size_t k = 0; k < s->choice.n; k++)
-          {
-            double d = distance_to_shaft (celd_chosen_shaft (s, k), p);
-
-            if (d < least)
-              {
-                least   = d;
-                nearest = k;
-              }
-          }
-        r->rest[nearest] += s->step * s->step / (s->width * s->width);
-      }
-}
-
-/* The area of unexplained paint within a distance of a point that is not counted yet. */
-static double
-rest_at (CeldArrowSearch *s, CeldPoint p, double reach)
-{
-  double rest = 0;
-
-  for (double y = p.y - reach; y <= p.y + reach; y += s->step)
-    for (double x = p.x - reach; x <= p.x + reach; x += s->step)
-      {
-        size_t    c = celd_search_cell (s, (CeldPoint) { x, y });
-        CeldPoint centre;
-
-        if (c == SIZE_MAX || !s->painted[c] || s->covers[c] || s->stamp[c] == s->tick ||
-            hypot (x - p.x, y - p.y) > reach)
-          continue;
-        s->stamp[c] = s->tick;
-        centre = (CeldPoint) { ((double) (c % (size_t) s->columns) + 0.5) * s->step,
-                               ((double) (c / (size_t) s->columns) + 0.5) * s->step };
-        if (celd_search_room (s, centre) > REST_ROOM * s->width)
-          rest += s->step * s->step / (s->width * s->width);
-      }
-  return rest;
-}
-
-static double
-rest_round (CeldArrowSearch *s, const CeldShaft *shaft)
-{
-  double rest = 0;
-
-  s->tick++;
-  for (int end = 0; end < 2; end++)
-    rest += rest_at (s, s->place[shaft->place[end]], REST_ENDS * s->width);
-  for (size_t i = 1; i < shaft->n; i++)
-    for (int k = 0; k < 4; k++)
-      rest += rest_at (s, celd_search_between (shaft->at[i - 1], shaft->at[i], 0.25 * k), REST_REACH * s->width);
-  return rest;
-}
 
 /* Finds which arrows the graph gives, too.  Where another choice is as good, it is unclear even so. */
 static void
@@ -225,7 +112,7 @@ is_shown (const Clearness *r, size_t place)
 
       for (int end = 0; end < 2; end++)
         if (shaft->place[end] == place &&
-            ((o->end == end && r->own[k] >= ARROW_LEAST_OWN) ||
+            ((o->end == end && r->paint.own[k] >= ARROW_LEAST_OWN) ||
              !has_partner (r, place, k, celd_shaft_way (shaft, end, WAY_FROM * s->width))))
           return true;
     }
@@ -275,7 +162,7 @@ leads_through (const CeldArrowSearch *s, size_t k, size_t place, double distance
   for (int end = 0; end < 2; end++)
     if (celd_points_apart (s->place[shaft->place[end]], s->place[place]) < from * s->width)
       return false;
-  return distance_to_shaft (shaft, s->place[place]) < distance * s->width;
+  return celd_distance_to_shaft (shaft, s->place[place]) < distance * s->width;
 }
 
 /* Does an arrow pass a place where others end so closely that it may end there, too? */
@@ -318,7 +205,7 @@ is_on_another (const Clearness *r, size_t i)
       size_t           n = 0;
 
       for (size_t j = 0; j < a->n && k != i; j++)
-        n += distance_to_shaft (b, a->at[j]) < ON_ANOTHER * s->width;
+        n += celd_distance_to_shaft (b, a->at[j]) < ON_ANOTHER * s->width;
       if (n > 1 && (double) (n - 1) * a->length / (double) (a->n - 1) > MOST_ON_ANOTHER * s->width)
         return true;
     }
@@ -339,7 +226,7 @@ is_mark_needless (const Clearness *r, size_t k)
       if (m != k && s->shaft[q->shaft].place[q->end] == s->shaft[o->shaft].place[o->end])
         return true;
     }
-  return r->own[k] < ARROW_LEAST_OWN;
+  return r->paint.own[k] < ARROW_LEAST_OWN;
 }
 
 /* May arrow i, which ends at a place with its end a, and arrow k with its end b be one that passes there?  It would
@@ -406,7 +293,7 @@ is_any_seen (const Clearness *r, size_t i)
   bool                   any = false;
 
   for (size_t k = 0; k < s->choice.n; k++)
-    any |= r->seen[k] >= ARROW_LEAST_OWN &&
+    any |= r->paint.seen[k] >= ARROW_LEAST_OWN &&
            celd_points_apart (celd_option_place (s, &s->option[s->choice.item[k]], true), tip) < ONE_PLACE * s->width;
   return any;
 }
@@ -417,7 +304,7 @@ margin_needed (const Clearness *r, size_t i)
 {
   const CeldShaft *shaft = celd_chosen_shaft (r->s, i);
   bool             passes = may_pass (r, i);
-  int              doubts = (r->seen[i] < ARROW_LEAST_OWN) + passes + is_on_another (r, i);
+  int              doubts = (r->paint.seen[i] < ARROW_LEAST_OWN) + passes + is_on_another (r, i);
 
   if ((passes && !r->s->dot) || !is_any_seen (r, i) || !is_shown (r, shaft->place[0]) || !is_shown (r, shaft->place[1]))
     return INFINITY;
@@ -435,7 +322,7 @@ is_explained (const Clearness *r, size_t i)
   double                 most = s->dot ? DOT_MOST_REST : r->margin[i] < CERTAIN_MARGIN ? ARROW_MOST_REST
                                 : CERTAIN_MOST_REST;
 
-  return r->rest[i] <= most && is_apart (s, shaft->place[0]) && is_apart (s, shaft->place[1]) &&
+  return r->paint.rest[i] <= most && is_apart (s, shaft->place[0]) && is_apart (s, shaft->place[1]) &&
          !is_crossed_twice (r, i);
 }
 
@@ -456,10 +343,10 @@ why_unclear (const Clearness *r, size_t i)
   if (o->mark_cost > (s->dot ? MOST_OF_DOT : MOST_OF_HEAD))
     return CELD_REASON_ALIKE;
   if (o->cost > MOST_OF_ARROW || s->passed[o->shaft] || passes_end (r, i) || !is_explained (r, i) ||
-      rest_round (r->s, shaft) > (s->dot ? DOT_ROUND_REST : ROUND_MOST_REST))
+      celd_rest_round (r->s, shaft) > (s->dot ? DOT_ROUND_REST : ROUND_MOST_REST))
     return CELD_REASON_MEETING;
   if (r->margin[i] < margin_needed (r, i))
-    return r->seen[i] < ARROW_LEAST_OWN ? CELD_REASON_ALIKE : CELD_REASON_MEETING;
+    return r->paint.seen[i] < ARROW_LEAST_OWN ? CELD_REASON_ALIKE : CELD_REASON_MEETING;
   return s->arrows_at[tail] == 1 && celd_joined_is_at_frame (r->lines, s->place[tail]) ? CELD_REASON_FRAME
                                                                                        : CELD_REASON_NONE;
 }
@@ -469,11 +356,10 @@ celd_search_clear_find (CeldArrowSearch *search, const CeldJoinedLines *lines, C
                         const double *margin, CeldArrowReason *unclear)
 {
   Clearness  r = { .s = search, .lines = lines, .margin = margin };
-  CeldStatus status = find_own (&r);
+  CeldStatus status = celd_choice_paint_measure (search, &r.paint);
 
   if (status != CELD_OK)
     return status;
-  find_rest (&r);
   compare_with_graph (&r, other);
   for (size_t i = 0; i < search->choice.n; i++)
     unclear[i] = why_unclear (&r, i);

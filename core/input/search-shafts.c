@@ -272,3 +272,13 @@ celd_shaft_way (const CeldShaft *shaft, int end, double from)
     }
   return (CeldPoint) { (tip.x - p.x) / d, (tip.y - p.y) / d };
 }
+
+double
+celd_distance_to_shaft (const CeldShaft *shaft, CeldPoint p)
+{
+  double d = INFINITY;
+
+  for (size_t i = 1; i < shaft->n; i++)
+    d = fmin (d, celd_distance_to_part (p, shaft->at[i - 1], shaft->at[i]));
+  return d;
+}
