@@ -128,6 +128,8 @@ void cli_say_without (const char *folder);
 const char *cli_in_language (const char *text);
 /* Whether a status is CELD_OK; if not, prints its text. */
 bool cli_check (CeldStatus status);
+/* Prints the contradictions of an order. */
+void cli_say_cycles   (const CliOptions *options, const CeldOrder *order, const CeldRelations *relations);
 /* Prints the first problems that are no contradictions. */
 void cli_say_problems (const CeldProblems *problems, const CeldPalette *palette, const CeldRelations *relations);
 

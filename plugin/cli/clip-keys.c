@@ -59,9 +59,9 @@ take_ink (const CeldPlane *ink, CliKey *key)
 
 /* ------------------------------------------------------------------ relations */
 
-/* Appends the relations of a key that are not there yet, one on each line. */
+/* Appends the relations of a key that are not there yet, one on each line, and to `list`. */
 static void
-take_relations (const CliMotion *motion, const CliKey *key, const CeldRelations *relations, GString *all)
+take_relations (const CliMotion *motion, const CliKey *key, const CeldRelations *relations, GString *all, GArray *list)
 {
   for (size_t i = 0; i < relations->n; i++)
     {
@@ -73,29 +73,39 @@ take_relations (const CliMotion *motion, const CliKey *key, const CeldRelations 
       text = cli_relation_text (&relation, NULL);
       line = g_strdup_printf ("%s\n", text);
       if (!strstr (all->str, line))
-        g_string_append (all, line);
+        {
+          g_string_append (all, line);
+          g_array_append_val (list, relation);
+        }
       g_free (text);
       g_free (line);
     }
 }
 
+/* Orders the regions by the relations of all keys, as they stand in the text; `from` are those of the keys. */
 static CeldStatus
-make_order (CliMotion *motion, CliRun *run)
+make_order (CliMotion *motion, CliRun *run, const GArray *from)
 {
-  CeldRelations relations = { 0 };
-  CeldStatus    status = celd_relations_parse (motion->relations, &relations, NULL);
+  CeldStatus status = celd_relations_parse (motion->relations, &motion->list, NULL);
 
   if (status == CELD_OK)
-    status = celd_order (&motion->key[0].labels, &motion->palette, &relations, NULL, &motion->options->settings,
+    status = celd_order (&motion->key[0].labels, &motion->palette, &motion->list, NULL, &motion->options->settings,
                          &run->host, &motion->order, NULL);
-  celd_relations_clear (&relations);
+  for (size_t i = 0; i < MIN (motion->list.n, from->len); i++)
+    {
+      const CeldRelation *relation = &g_array_index (from, CeldRelation, i);
+
+      motion->list.item[i].source = relation->source;
+      motion->list.item[i].line   = relation->line;
+      motion->list.item[i].column = relation->column;
+    }
   return status;
 }
 
 /* ------------------------------------------------------------------ reading */
 
 static CeldStatus
-make_key (CliMotion *motion, CeldSession *session, CliRun *run, CliKey *key, GString *relations)
+make_key (CliMotion *motion, CeldSession *session, CliRun *run, CliKey *key, GString *relations, GArray *list)
 {
   CeldLabels       labels;
   CeldPlane        ink;
@@ -111,12 +121,12 @@ make_key (CliMotion *motion, CeldSession *session, CliRun *run, CliKey *key, GSt
   if (status == CELD_OK)
     status = celd_session_order (session, &run->host, &order);
   if (status == CELD_OK)
-    take_relations (motion, key, celd_session_relations (session), relations);
+    take_relations (motion, key, celd_session_relations (session), relations, list);
   return status;
 }
 
 static bool
-read_key (CliMotion *motion, CliRun *run, CliKey *key, GString *relations)
+read_key (CliMotion *motion, CliRun *run, CliKey *key, GString *relations, GArray *list)
 {
   CliOptions   options = *motion->options;
   CeldSession *session = celd_session_new ();
@@ -137,7 +147,7 @@ read_key (CliMotion *motion, CliRun *run, CliKey *key, GString *relations)
   cli_layers_clear (&layers);
   if (good)
     cli_run_stage (run, "keys");
-  good = good && cli_run_finish (run, make_key (motion, session, run, key, relations));
+  good = good && cli_run_finish (run, make_key (motion, session, run, key, relations, list));
   if (good)
     cli_say_problems (celd_session_problems (session), celd_session_palette (session),
                       celd_session_relations (session));
@@ -149,14 +159,17 @@ bool
 cli_keys_read (CliMotion *motion, CliRun *run)
 {
   GString *relations = g_string_new (NULL);
+  GArray  *list = g_array_new (FALSE, FALSE, sizeof (CeldRelation));
   bool     good = true;
 
   for (size_t i = 0; i < motion->n_keys && good; i++)
-    good = read_key (motion, run, &motion->key[i], relations);
+    good = read_key (motion, run, &motion->key[i], relations, list);
   motion->relations = g_string_free (relations, FALSE);
   for (size_t i = 0; i < motion->n_keys && good; i++)
     good = take_fingerprint (motion, motion->relations, &motion->key[i]);
-  return good && cli_check (make_order (motion, run));
+  good = good && cli_check (make_order (motion, run, list));
+  g_array_free (list, TRUE);
+  return good;
 }
 
 void
@@ -171,5 +184,6 @@ cli_keys_clear (CliMotion *motion)
   g_free (motion->key);
   celd_palette_clear (&motion->palette);
   g_free (motion->relations);
+  celd_relations_clear (&motion->list);
   celd_order_clear (&motion->order);
 }

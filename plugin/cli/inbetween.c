@@ -244,22 +244,16 @@ clear (Between *b)
 static int
 finish (const Between *b)
 {
-  CeldRelations relations = { 0 };
-  int           code = CLI_FAILED;
-
-  if (cli_check (celd_relations_parse (b->motion.relations, &relations, NULL)))
-    code = cli_finish (b->options, &(CliReport) {
-      .command   = "inbetween",
-      .width     = b->motion.width,
-      .height    = b->motion.height,
-      .palette   = &b->motion.palette,
-      .relations = &relations,
-      .order     = &b->motion.order,
-      .settings  = &b->options->settings,
-      .timings   = b->run.timings,
-    });
-  celd_relations_clear (&relations);
-  return code;
+  return cli_finish (b->options, &(CliReport) {
+    .command   = "inbetween",
+    .width     = b->motion.width,
+    .height    = b->motion.height,
+    .palette   = &b->motion.palette,
+    .relations = &b->motion.list,
+    .order     = &b->motion.order,
+    .settings  = &b->options->settings,
+    .timings   = b->run.timings,
+  });
 }
 
 static int

@@ -103,8 +103,8 @@ cli_check (CeldStatus status)
   return status == CELD_OK || cli_error ("%s", _ (celd_status_text (status)));
 }
 
-static void
-say_cycles (const CliOptions *options, const CeldOrder *order, const CeldRelations *relations)
+void
+cli_say_cycles (const CliOptions *options, const CeldOrder *order, const CeldRelations *relations)
 {
   for (size_t i = 0; i < order->n_cycles; i++)
     {
@@ -175,7 +175,7 @@ cli_finish (const CliOptions *options, const CliReport *report)
   if (options->report && !cli_report_write (options->report, report))
     return CLI_FAILED;
   if (report->order)
-    say_cycles (options, report->order, report->relations);
+    cli_say_cycles (options, report->order, report->relations);
   if (!options->quiet && report->order)
     say_beyond_scale (report->order, &options->settings);
   if (!options->quiet)

@@ -364,7 +364,10 @@ run_propagate (const CliOptions *options)
   g_string_free (stages, TRUE);
   code = propagate (options, &motion, &run);
   if (code == CLI_DONE && motion.order.n_cycles)
-    code = CLI_CONTRADICTED;
+    {
+      cli_say_cycles (options, &motion.order, &motion.list);
+      code = CLI_CONTRADICTED;
+    }
   cli_keys_clear (&motion);
   cli_sequence_clear (&motion.frames);
   cli_run_end (&run);

@@ -39,6 +39,7 @@ typedef struct
   CeldPalette       palette;       /* of all keys */
   uint32_t          background;    /* its label; 0: none */
   char             *relations;     /* of all keys, between colours */
+  CeldRelations     list;          /* the same, each with the place where a key has it */
   CeldOrder         order;
   int               width, height;
 } CliMotion;

@@ -66,6 +66,29 @@ add_frame (JsonBuilder *json, const CliMotion *motion, const CliFrameState *stat
   json_builder_end_object (json);
 }
 
+/* The relations of each contradiction, the one that was left out first. */
+static void
+add_contradictions (JsonBuilder *json, const CliMotion *motion)
+{
+  json_builder_set_member_name (json, "contradictions");
+  json_builder_begin_array (json);
+  for (size_t i = 0; i < motion->order.n_cycles; i++)
+    {
+      const CeldCycle *cycle = &motion->order.cycle[i];
+
+      json_builder_begin_array (json);
+      for (size_t k = 0; k < cycle->n; k++)
+        {
+          char *text = cli_relation_text (&motion->list.item[cycle->item[k]], NULL);
+
+          json_builder_add_string_value (json, text);
+          g_free (text);
+        }
+      json_builder_end_array (json);
+    }
+  json_builder_end_array (json);
+}
+
 static bool
 write_json (const char *path, const CliMotion *motion, const CliFrameState *state)
 {
@@ -77,6 +100,7 @@ write_json (const char *path, const CliMotion *motion, const CliFrameState *stat
   for (size_t i = 0; i < motion->frames.n; i++)
     add_frame (json, motion, &state[i]);
   json_builder_end_array (json);
+  add_contradictions (json, motion);
   json_builder_end_object (json);
   return cli_write_json (path, json);
 }

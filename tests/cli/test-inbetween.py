@@ -69,6 +69,12 @@ class Inbetween(Test):
             self.assertLess(self.differs(f'between_{frame:02}.png', frame / 4), 0.01)
         self.assertGreater(self.differs('between_02.png', 0), 0.05)
 
+    def test_contradictions(self):
+        """They are said where they stand in the text that was given."""
+        text = self.celdepth('inbetween', 'a.png', 'b.png', '--scribbles', 'a-strokes.png', '--relations',
+                             '#ff0000 > #0000ff; #0000ff > #ff0000', '--output', 'middle.png', code=3)
+        self.assertIn('#0000ff > #ff0000  (--relations, line 1, column 20)', text)
+
     def test_one_frame_needs_no_number(self):
         self.coloured('--output', 'middle.png')
         self.assertLess(self.differs('middle.png', 0.5), 0.01)

@@ -90,6 +90,19 @@ class Propagate(Test):
         self.assertFalse(any(frame['review'] for frame in review['frames']))
         self.assertFalse(os.path.exists(self.path('review.png')))
 
+    def test_contradictions(self):
+        """They are printed with their places in what was given, and reported, as those of other commands."""
+        red, blue = NAMES[PAGE], NAMES[BODY]
+        text = self.celdepth('propagate', 'walk_000.png', 'walk_001.png', '--key', '0', '--scribbles', 'scribbles.png',
+                             '--relations', f'{red} > {blue}; {blue} > {red}', '--labels-dir', 'clip', '--report',
+                             'review.json', code=3)
+        self.assertIn('contradict each other', text)
+        self.assertIn(f'{red} > {blue}  (--relations, line 1, column 1)', text)
+        self.assertIn(f'{blue} > {red}  (--relations, line 1, column 20)', text)
+        with open(self.path('review.json'), encoding='utf-8') as file:
+            cycle, = json.load(file)['contradictions']
+        self.assertEqual(sorted(cycle), sorted([f'{red} > {blue}', f'{blue} > {red}']))
+
     def test_depth_does_not_flicker(self):
         self.celdepth(*self.words('--depth-dir', 'depth'))
         depths = {region: set() for region in range(4)}
