@@ -9,7 +9,7 @@
  *
  * Colours are not converted: they are encoded by the embedded profile (sRGB if there is none), or linear light.  No
  * function throws or prints.  All may be called from any thread, with one file from one thread at a time.  The only
- * global state is the connection to the reading process.
+ * global state is the connection to the reading process, and who completes files (celd_io_set_keeper).
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -68,6 +68,18 @@ bool celd_io_read_colours (CeldIoFile *file, size_t part, float *rgba, CeldIoErr
 bool celd_io_read_values (CeldIoFile *file, size_t part, float *values, CeldIoError *error);
 
 /* ------------------------------------------------------------------ writing */
+
+/* Who completes what was written, so that several results can appear together: `complete` gives a file or folder its
+ * name, at once or later; false: that failed, for the reason in errno.  `owns` says whether a folder that is not empty
+ * may be written again.  Without a keeper, files get their names at once, and such a folder is refused. */
+typedef struct
+{
+  bool (*complete) (const char *unfinished, const char *path);
+  bool (*owns)     (const char *folder);
+} CeldIoKeeper;
+
+/* To be called while nothing is being written; the record is not copied. */
+void celd_io_set_keeper (const CeldIoKeeper *keeper);
 
 typedef enum { CELD_IO_8_BIT, CELD_IO_16_BIT, CELD_IO_FLOAT } CeldIoSample;
 

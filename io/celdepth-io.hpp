@@ -100,7 +100,10 @@ guarded (const char *verb, const std::string &path, CeldIoError *error, Work wor
   return false;
 }
 
-// A file or folder that is being written, under a temporary name that commit () changes to the final one.  Without
+extern const CeldIoKeeper *celd_io_keeper; // NULL: none
+
+// A file or folder that is being written, under a temporary name that commit () changes to the final one, or
+// the keeper later.  Without
 // commit () the destructor deletes it.
 class NewFile
 {
@@ -112,7 +115,8 @@ public:
       final = final.parent_path ();
     if (std::filesystem::exists (final) && folder && !std::filesystem::is_directory (final))
       throw IoFailure ("it is not a folder.");
-    if (std::filesystem::exists (final) && folder && !std::filesystem::is_empty (final))
+    if (std::filesystem::exists (final) && folder && !std::filesystem::is_empty (final) &&
+        !(celd_io_keeper && celd_io_keeper->owns (final.c_str ())))
       throw IoFailure ("it is a folder that is not empty.");
     if (std::filesystem::exists (final) && !folder && !std::filesystem::is_regular_file (final))
       throw IoFailure (N_ ("it is not an ordinary file."));
@@ -129,7 +133,8 @@ public:
     const int       reason = errno; // why writing has failed
     std::error_code ignored;
 
-    std::filesystem::remove_all (temporary, ignored);
+    if (!committed)
+      std::filesystem::remove_all (temporary, ignored);
     errno = reason;
   }
 
@@ -142,7 +147,11 @@ public:
   {
     if (is_full (errno) || is_cut_png ()) // libraries do not always notice that the last bytes were not written
       throw IoFailure (N_ ("there is not enough space for it."));
-    std::filesystem::rename (temporary, final);
+    if (!celd_io_keeper)
+      std::filesystem::rename (temporary, final);
+    else if (!celd_io_keeper->complete (temporary.c_str (), final.c_str ()))
+      throw IoFailure (system_reason (errno));
+    committed = true;
   }
 
 private:
@@ -174,6 +183,7 @@ private:
   }
 
   std::filesystem::path final, temporary;
+  bool                  committed = false;
 };
 
 #endif

@@ -19,6 +19,7 @@ const CeldIoFunctions celd_io_functions = {
   .profile       = celd_io_profile,
   .read_colours  = celd_io_read_colours,
   .read_values   = celd_io_read_values,
+  .set_keeper    = celd_io_set_keeper,
   .write         = celd_io_write,
   .write_depth   = celd_io_write_depth,
   .write_normals = celd_io_write_normals,

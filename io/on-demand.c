@@ -135,6 +135,12 @@ celd_io_fork_reader (void)
 }
 
 void
+celd_io_set_keeper (const CeldIoKeeper *keeper)
+{
+  atomic_load (&loaded)->set_keeper (keeper);
+}
+
+void
 celd_io_mesh_files (const char *path, void (*take) (void *host, const char *name), void *host)
 {
   CeldIoError later;

@@ -32,6 +32,7 @@ typedef struct
   const char     *(*profile)          (const CeldIoFile *file, size_t part, size_t *size);
   bool            (*read_colours)     (CeldIoFile *file, size_t part, float *rgba, CeldIoError *error);
   bool            (*read_values)      (CeldIoFile *file, size_t part, float *values, CeldIoError *error);
+  void            (*set_keeper)       (const CeldIoKeeper *keeper);
   bool            (*write)            (const char *path, const CeldIoPicture *parts, size_t n_parts,
                                        const CeldIoNote *notes, size_t n_notes, CeldIoError *error);
   bool            (*write_depth)      (const char *path, const CeldPlane *depth, float farthest, float nearest,

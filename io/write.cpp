@@ -271,6 +271,14 @@ write_heights (const std::string &path, const CeldPlane &heights)
 
 // ------------------------------------------------------------------ the C functions
 
+const CeldIoKeeper *celd_io_keeper;
+
+void
+celd_io_set_keeper (const CeldIoKeeper *keeper)
+{
+  celd_io_keeper = keeper;
+}
+
 bool
 celd_io_write (const char *path, const CeldIoPicture *parts, size_t n_parts, const CeldIoNote *notes, size_t n_notes,
                CeldIoError *error)

@@ -63,6 +63,8 @@ refuse (const char *word)
   return CLI_USAGE;
 }
 
+static const CeldIoKeeper keeper = { cli_file_complete, cli_file_owns };
+
 /* What reads and writes files is loaded only now, because it takes long. */
 static int
 run_with_files (const CliCommand *command, const CliOptions *options)
@@ -75,7 +77,23 @@ run_with_files (const CliCommand *command, const CliOptions *options)
       return CLI_FAILED;
     }
   celd_io_fork_reader (); /* while there is one thread */
+  celd_io_set_keeper (&keeper);
   return options->clip ? cli_clip_run (command, options) : command->run (options);
+}
+
+/* The same, with results that appear together.  Frames of a clip appear one by one, and what --watch makes each time. */
+static int
+run_whole (const CliCommand *command, CliOptions *options)
+{
+  bool parts = options->clip || options->watch || command->step == CLI_PROPAGATE;
+  int  code;
+
+  if (!parts)
+    cli_files_hold ();
+  code = run_with_files (command, options);
+  if ((code == CLI_DONE || code == CLI_CONTRADICTED) && !cli_streams_write (&options->streams))
+    code = CLI_FAILED;
+  return parts ? code : cli_files_end (code);
 }
 
 static int
@@ -89,9 +107,7 @@ run_command (const CliCommand *command, int argc, char **argv)
   code = cli_options_parse (command, argc, argv, &options);
   setlocale (LC_MESSAGES, ""); /* What is wrong with options is said in English, as help is. */
   if (code == CLI_DONE && !options.help)
-    code = run_with_files (command, &options);
-  if ((code == CLI_DONE || code == CLI_CONTRADICTED) && !cli_streams_write (&options.streams))
-    code = CLI_FAILED;
+    code = run_whole (command, &options);
   cli_options_clear (&options);
   return code;
 }

@@ -107,7 +107,7 @@ char *cli_file_numbered (const char *name, int number);
 /* outputs.c: whether two names stand for the same file, also by links. */
 bool  cli_same_file     (const char *a, const char *b);
 
-/* streams.c: copies the file for standard output there; removes all files.  False with a message. */
+/* streams.c: copies the file for standard output there, finished or not; removes all files.  False with a message. */
 bool cli_streams_write (CliStreams *streams);
 void cli_streams_clear (CliStreams *streams);
 
@@ -194,6 +194,16 @@ bool cli_read_levels  (const char *path, CeldPlane *levels);
 
 /* The name under which a file is written, to be renamed when it is complete; free with g_free. */
 char *cli_unfinished_name   (const char *path);
+/* Gives an unfinished file or folder its name: at once, or at the end of the run if files are held.  False: it could
+ * not be done, for the reason in errno. */
+bool  cli_file_complete     (const char *unfinished, const char *path);
+/* Whether this run has written the folder; it is then written again, but for what others have put into it. */
+bool  cli_file_owns         (const char *folder);
+/* From here on files that are written stay unfinished until cli_files_end, so that they appear together. */
+void  cli_files_hold        (void);
+/* Completes them if the exit code is that of success, and else removes them; returns the code, or CLI_FAILED with a
+ * message. */
+int   cli_files_end         (int code);
 /* Removes what runs that were killed left of a file.  No other process may be writing it. */
 void  cli_remove_unfinished (const char *path);
 

@@ -182,7 +182,10 @@ run_frame (const CliCommand *command, const CliOptions *all, const CliClip *clip
   options.frames_in_all = (int) clip->n;
   if ((!command->check || command->check (&options)) && cli_files_check (command, &options) &&
       cli_texts_check (&options))
-    code = cli_outputs_check_places (&options) ? command->run (&options) : CLI_FAILED;
+    {
+      cli_files_hold ();
+      code = cli_files_end (cli_outputs_check_places (&options) ? command->run (&options) : CLI_FAILED);
+    }
   cli_files_clear (&options);
   g_free (options.input);
   return code;

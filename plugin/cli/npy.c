@@ -41,7 +41,7 @@ cli_npy_write (const char *path, int width, int height, int depth, size_t row, c
   good = file && fwrite (header, HEADER_SIZE, 1, file) == 1;
   for (int y = 0; good && y < height; y++)
     good = fwrite (data + (size_t) y * row, pixel, (size_t) width, file) == (size_t) width;
-  good = file && !fclose (file) && good && !g_rename (beside, path);
+  good = file && !fclose (file) && good && cli_file_complete (beside, path);
   if (!good)
     cli_say ("Cannot write \"%s\": %s.", path, g_strerror (errno));
   if (!good && file)

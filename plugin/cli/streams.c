@@ -117,11 +117,16 @@ cli_stream_output (CliStreams *streams, const char *what, const char *ending, bo
 bool
 cli_streams_write (CliStreams *streams)
 {
-  FILE *file = streams->output ? g_fopen (streams->output, "rb") : NULL;
-  bool  good = !streams->output || (file && copy (file, stdout));
+  char *unfinished = streams->output ? cli_unfinished_name (streams->output) : NULL;
+  FILE *file = unfinished ? g_fopen (unfinished, "rb") : NULL;
+  bool  good;
 
+  if (!file && streams->output)
+    file = g_fopen (streams->output, "rb");
+  good = !streams->output || (file && copy (file, stdout));
   if (file)
     fclose (file);
+  g_free (unfinished);
   return good || cli_error ("Cannot write standard output: %s.", g_strerror (errno));
 }
 

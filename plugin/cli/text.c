@@ -192,7 +192,7 @@ cli_write_text (const char *path, const char *text)
   unfinished = cli_unfinished_name (path);
   file = fopen (unfinished, "w");
   good = file && fputs (text, file) >= 0;
-  good = file && !fclose (file) && good && !g_rename (unfinished, path);
+  good = file && !fclose (file) && good && cli_file_complete (unfinished, path);
   if (!good)
     cli_say ("Cannot write \"%s\": %s.", path, g_strerror (errno));
   if (!good && file)

@@ -134,7 +134,8 @@ run_once (Watch *watch, const CliOptions *options, int (*run) (void *data), void
   int    code;
 
   cli_say_keep ();
-  code = run (data);
+  cli_files_hold ();
+  code = cli_files_end (run (data));
   if (cli_run_cancelled () || (code == CLI_FAILED && wait_for_change (watch, PATIENCE)))
     {
       cli_say_kept (false);

@@ -701,6 +701,10 @@ class BadInput(Test):
             said = run(*words, *output.split(), prepare=small)
             self.assertRegex(said, r'Cannot write "[a-z.]+": File too large\.\n$')
         self.assertIn('File too large', run(*words, '--depth', 'd.png', prepare=lambda: small(0)))
+        for late in ('--wiggle w.gif', '--mesh m.obj', '--report r.json'):  # earlier results are not left
+            said = run(*words, '--labels', 'l.png', '--suggestions', 's.txt', '--layers', 'l', *late.split(),
+                       prepare=lambda: small(1500))
+            self.assertRegex(said, r'Cannot write "(w.gif|m.obj|r.json)": ')
         self.assertEqual(sorted(os.listdir(self.folder)), before)
         os.chmod(self.path('drawing.png'), 0)
         self.assertEqual(run(*words, '--depth', '/tmp/none/d.png', prepare=as_nobody).count('\n'), 1)

@@ -145,6 +145,21 @@ class Watch(Test):
         self.assertGreater(len(first), 1)
         self.assertEqual(self.lines[middle:middle + len(first) - 1], first[:-1])
 
+    def test_folders(self):
+        """A folder that this run wrote is written again, but for what others put there; another's is refused."""
+        self.start('popup', 'page.ora', '--layers', 'layers', '--wiggle', 'moving', '--frames', '2')
+        with open(self.path('layers/mine.txt'), 'w', encoding='utf-8') as file:
+            file.write('mine')
+        self.write('new.ora', (200, 0, 200))
+        os.replace(self.path('new.ora'), self.path('page.ora'))
+        self.wait_for('Made in', 2)
+        self.ends()
+        self.assertEqual(sorted(name.split('-')[-1] for name in os.listdir(self.path('layers'))),
+                         ['00a000.png', 'c800c8.png', 'ff0000.png', 'layers.json', 'mine.txt'])
+        self.assertEqual(sorted(os.listdir(self.path('moving'))), ['000.png', '001.png'])
+        self.assertIn('not empty', self.celdepth('popup', 'page.ora', '--layers', 'layers', '--watch', code=1))
+        self.assertEqual([name for name in os.listdir(self.folder) if '.new-' in name], [])
+
     def test_own_results(self):
         """Results beside the page, and other files, do not make it run again."""
         self.start('segment', 'page.ora', '--labels', 'labels.png', '--report', 'report.json')
