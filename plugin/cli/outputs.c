@@ -232,9 +232,27 @@ is_empty (const char *folder)
   return empty;
 }
 
+/* Whether a folder, by its whole name, is one that the run makes, or above it. */
+static bool
+will_be_made (const char *folder, const CliOptions *options)
+{
+  const char *const made[] = { options->output_dir, options->labels_dir, options->depth_dir };
+  size_t            n = strlen (folder);
+  bool              found = false;
+
+  for (size_t i = 0; i < G_N_ELEMENTS (made) && !found; i++)
+    {
+      char *plain = made[i] ? g_canonicalize_filename (made[i], NULL) : NULL;
+
+      found = plain && !strncmp (plain, folder, n) && (!plain[n] || plain[n] == G_DIR_SEPARATOR);
+      g_free (plain);
+    }
+  return found;
+}
+
 /* Whether a file can be written there, with a message if not.  Only a report may go to a device. */
 static bool
-check_place (const char *name, CliFileKind kind)
+check_place (const char *name, CliFileKind kind, const CliOptions *options)
 {
   char *plain = g_canonicalize_filename (name, NULL), *folder = g_path_get_dirname (plain); /* without a last slash */
   bool  device = cli_is_device (name), good = true;
@@ -247,7 +265,7 @@ check_place (const char *name, CliFileKind kind)
     good = cli_error ("Cannot write \"%s\": it is a folder.", name);
   else if (device && kind != REPORT)
     good = cli_error ("Cannot write \"%s\": it is not an ordinary file.", name);
-  else if (!device && g_access (folder, W_OK))
+  else if (!device && !will_be_made (folder, options) && g_access (folder, W_OK))
     good = cli_error ("Cannot write \"%s\" in its folder: %s.", name, g_strerror (errno));
   g_free (folder);
   g_free (plain);
@@ -255,7 +273,7 @@ check_place (const char *name, CliFileKind kind)
 }
 
 static bool
-check_maps (const char *path)
+check_maps (const char *path, const CliOptions *options)
 {
   bool good = true;
 
@@ -263,15 +281,38 @@ check_maps (const char *path)
     {
       char *name = cli_map_name (path, map);
 
-      good = check_place (name, OUTPUT);
+      good = check_place (name, OUTPUT, options);
       g_free (name);
     }
   return good;
 }
 
-/* Folders that get files of their own names are made. */
+/* Whether files can be written in a folder that is there, or that can be made; with a message if not. */
 static bool
-make_folder (const char *path)
+check_folder (const char *path)
+{
+  char *place = g_canonicalize_filename (path ? path : ".", NULL);
+  bool  there = true, good = true;
+
+  while (!g_file_test (place, G_FILE_TEST_EXISTS))
+    {
+      char *above = g_path_get_dirname (place);
+
+      g_free (place);
+      place = above;
+      there = false;
+    }
+  if (path && !g_file_test (place, G_FILE_TEST_IS_DIR))
+    good = cli_error ("Cannot make the folder \"%s\": %s.", path, g_strerror (there ? EEXIST : ENOTDIR));
+  else if (path && g_access (place, W_OK))
+    good = there ? cli_error ("Cannot write in the folder \"%s\": %s.", path, g_strerror (errno))
+                 : cli_error ("Cannot make the folder \"%s\": %s.", path, g_strerror (errno));
+  g_free (place);
+  return good;
+}
+
+bool
+cli_outputs_make_folder (const char *path)
 {
   return !path || !g_mkdir_with_parents (path, 0777) ||
          cli_error ("Cannot make the folder \"%s\": %s.", path, g_strerror (errno));
@@ -281,16 +322,16 @@ bool
 cli_outputs_check_places (const CliOptions *options)
 {
   GArray *given = g_array_new (FALSE, FALSE, sizeof (CliFile));
-  bool    good = make_folder (options->output_dir) && make_folder (options->labels_dir) &&
-                 make_folder (options->depth_dir);
+  bool    good = check_folder (options->output_dir) && check_folder (options->labels_dir) &&
+                 check_folder (options->depth_dir);
 
   cli_files_given (options, given);
   for (guint i = 0; good && i < given->len; i++)
     {
       const CliFile *file = &g_array_index (given, CliFile, i);
 
-      good = file->kind == MAPS ? check_maps (file->path)
-                                : file->kind < OUTPUT || check_place (file->path, file->kind);
+      good = file->kind == MAPS ? check_maps (file->path, options)
+                                : file->kind < OUTPUT || check_place (file->path, file->kind, options);
     }
   g_array_free (given, TRUE);
   return good;

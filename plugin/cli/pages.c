@@ -276,7 +276,9 @@ cli_pages_run (const CliCommand *command, int argc, char **argv)
         }
       code = cli_book_parse (&book, command, words);
       if (code == CLI_DONE)
-        code = take_pages (&book, words) ? make_pages (&book) : CLI_USAGE;
+        code = take_pages (&book, words) ? CLI_DONE : CLI_USAGE;
+      if (code == CLI_DONE)
+        code = cli_outputs_make_folder (book.options.output_dir) ? make_pages (&book) : CLI_FAILED;
       cli_options_clear (&book.options);
     }
   clear_book (&book);

@@ -322,6 +322,12 @@ write_slurm (const Work *w, const char *path)
 
 /* ------------------------------------------------------------------ the command */
 
+static bool
+make_folders (const CliOptions *options)
+{
+  return cli_outputs_make_folder (options->labels_dir) && cli_outputs_make_folder (options->depth_dir);
+}
+
 /* The exit code; that of contradictions is found by the caller. */
 static int
 propagate (const CliOptions *options, CliMotion *motion, CliRun *run)
@@ -338,9 +344,9 @@ propagate (const CliOptions *options, CliMotion *motion, CliRun *run)
   if (good && options->part > (int) w.n_parts)
     good = cli_error ("--part cannot be %d: the clip has %zu parts.", options->part, w.n_parts);
   if (good && options->emit_slurm)
-    good = write_slurm (&w, options->emit_slurm);
+    good = make_folders (options) && write_slurm (&w, options->emit_slurm);
   else if (good)
-    good = cli_keys_read (motion, run) &&
+    good = cli_keys_read (motion, run) && make_folders (options) &&
            run_parts (&w) &&
            (options->part ||
             (write_clip (motion) && (!options->review || cli_review_write (options->review, motion))));

@@ -66,6 +66,12 @@ class Pages(Test):
         """A folder that cannot be made is a failure, as any other place where nothing can be written."""
         self.page('a.ora')
         self.fails('popup', 'a.ora', '--output-dir', 'drawing.png', naming='Cannot make the folder "drawing.png"')
+        os.mkdir(self.path('closed'), 0o555)
+        os.chmod(self.folder, 0o755)
+        for folder, said in (('closed', 'write in'), ('closed/new', 'make')):
+            done = subprocess.run([COMMAND, 'popup', 'a.ora', '--output-dir', folder], cwd=self.folder, check=False,
+                                  capture_output=True, text=True, user=65534 if os.getuid() == 0 else None)
+            self.assertEqual(done.stderr, f'celdepth: Cannot {said} the folder "{folder}": Permission denied.\n')
         text = self.celdepth('popup', 'a.ora', '--output-dir', 'out', '--depth=jpg', code=2)
         self.assertIn('--depth out/PAGE-depth.jpg: the name must end in', text)
 

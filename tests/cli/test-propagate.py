@@ -279,6 +279,14 @@ class Propagate(Test):
         lit = self.picture('lit_004.png')[..., 0]
         self.assertGreater(np.ptp(lit[paper(regions(4)) & (regions(4) == BODY)]), 20)
 
+    def test_no_folders_after_mistakes(self):
+        """Folders are made when there is something for them; a report may go there."""
+        Image.new('L', (SIDE, SIDE), 255).save(self.path('blank_0.png'))
+        words = self.words()[:-2]
+        for wrong in ((*words[:3], '9', *words[4:]), (*words, '--part', '99'), ('propagate', 'blank_0.png', *words[2:])):
+            self.fails(*wrong, '--labels-dir', 'new/clip', '--depth-dir', 'depth', naming='')
+        self.celdepth(*self.words('--report', 'new/review.json', folder='new/clip'))
+
     def test_bad_input_is_named(self):
         for words, named in ((['--key', '9', '--scribbles', 'late.png'], '--key 9'),
                              (['--key', '0', '--scribbles', 'scribbles.png'], 'twice'),
