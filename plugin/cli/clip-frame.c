@@ -31,6 +31,8 @@ cli_frame_ink (const CliMotion *motion, const CeldHost *host, size_t frame, Celd
                     cli_plane_new (motion->width, motion->height, ink) &&
                     cli_check (celd_ink (&layers.drawing, motion->options->settings.ink, host, ink));
 
+  if (good && !celd_ink_has_lines (ink))
+    g_atomic_int_set (&motion->frames.frame[frame].blank, 1); /* other chains may read it, too */
   cli_layers_clear (&layers);
   return good;
 }

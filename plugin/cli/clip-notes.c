@@ -28,3 +28,18 @@ cli_frame_take_notes (const CliMotion *motion, const CeldLabels *before, const C
   g_free (note);
   return good;
 }
+
+void
+cli_say_blank (const CliMotion *motion)
+{
+  GString *numbers = g_string_new (NULL);
+  size_t   n = 0;
+
+  for (size_t i = 0; i < motion->frames.n; i++)
+    if (motion->frames.frame[i].blank)
+      g_string_append_printf (numbers, "%s%d", n++ ? ", " : "", motion->frames.frame[i].number);
+  if (n)
+    cli_say ("Frame%s %s: there are no lines, so that all is background, and so is what comes after it from the same key. "
+             "Give the next drawing scribbles and a --key of its own.", n > 1 ? "s" : "", numbers->str);
+  g_string_free (numbers, TRUE);
+}

@@ -34,7 +34,7 @@ plan_motion (Between *b)
   motion->frames.n = 2;
   motion->frames.frame = g_new0 (CliFrame, 2);
   for (int s = 0; s < 2; s++)
-    motion->frames.frame[s] = (CliFrame) { g_strdup (s ? o->target : o->input), s };
+    motion->frames.frame[s] = (CliFrame) { g_strdup (s ? o->target : o->input), s, 0 };
   motion->n_keys = o->second_scribbles ? 2 : 1;
   motion->key    = g_new0 (CliKey, motion->n_keys);
   motion->key[0] = (CliKey) { .frame = 0, .scribbles = o->scribbles, .arrows = o->arrows };

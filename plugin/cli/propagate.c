@@ -234,7 +234,11 @@ run_parts (Work *w)
   run_tasks (w, blends, (int) blends->len, run_blend_of);
   g_ptr_array_free (chains, TRUE);
   g_ptr_array_free (blends, TRUE);
-  return cli_run_finish (w->run, CELD_OK) && !w->failed;
+  if (!cli_run_finish (w->run, CELD_OK) || w->failed)
+    return false;
+  if (!w->motion->options->quiet)
+    cli_say_blank (w->motion);
+  return true;
 }
 
 /* ------------------------------------------------------------------ outputs */

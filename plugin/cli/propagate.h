@@ -92,6 +92,9 @@ GArray *cli_notes_new (void);
 bool cli_frame_take_notes (const CliMotion *motion, const CeldLabels *before, const CeldLabels *labels,
                            const CeldPlane *certainty, CliFrameState *state);
 
+/* Prints which frames have no lines, if there are such. */
+void cli_say_blank (const CliMotion *motion);
+
 /* ------------------------------------------------------------------ clip-state.c */
 
 /* The file of a result of a frame, "labels", "levels", "depth", "state", or of a side of it: "labels", "certainty",

@@ -9,7 +9,7 @@
 
 /* ------------------------------------------------------------------ sequence.c */
 
-typedef struct { char *path; int number; } CliFrame;
+typedef struct { char *path; int number, blank; } CliFrame; /* blank: it was read, and has no lines */
 
 /* By rising numbers, all different. */
 typedef struct { CliFrame *frame; size_t n; } CliSequence;

@@ -279,6 +279,13 @@ class Propagate(Test):
         lit = self.picture('lit_004.png')[..., 0]
         self.assertGreater(np.ptp(lit[paper(regions(4)) & (regions(4) == BODY)]), 20)
 
+    def test_blank_frames(self):
+        """They are said, also from a run that finds them made."""
+        Image.new('L', (SIDE, SIDE), 255).save(self.path('walk_001.png'))
+        for _ in range(2):
+            self.assertIn('Frame 1: there are no lines', self.celdepth(*self.words()))
+        self.assertEqual(self.celdepth(*self.words('--quiet')), '')
+
     def test_no_folders_after_mistakes(self):
         """Folders are made when there is something for them; a report may go there."""
         Image.new('L', (SIDE, SIDE), 255).save(self.path('blank_0.png'))
