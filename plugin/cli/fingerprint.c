@@ -38,6 +38,8 @@ cli_fingerprint_add_file (GChecksum *sum, const char *path)
 
   if (!path)
     return true;
+  if (cli_is_device (path)) /* which may have no end, and cannot be read twice */
+    return cli_error ("Cannot read \"%s\": it is not an ordinary file.", path);
   file = fopen (path, "rb");
   while (file && (n = fread (bytes, 1, sizeof bytes, file)) > 0)
     g_checksum_update (sum, bytes, (gssize) n);

@@ -12,6 +12,7 @@
 
 #define PREFIX      10  /* bytes of magic word, version, and length of the header */
 #define HEADER_SIZE 128 /* bytes with the prefix; numpy needs a multiple of 64 */
+#define MOST_SIZE   (PREFIX + 65536 + sizeof (float) * CELD_MAX_SIDE * CELD_MAX_SIDE) /* bytes of a file */
 #define FLOATS      (G_BYTE_ORDER == G_LITTLE_ENDIAN ? "'<f4'" : "'>f4'")
 
 bool
@@ -67,7 +68,7 @@ bool
 cli_npy_read (const char *path, CeldPlane *plane)
 {
   gsize length, header_end;
-  char *bytes = cli_file_read (path, &length);
+  char *bytes = cli_file_read (path, MOST_SIZE, false, &length);
   int   height, width;
   bool  good = false;
 

@@ -66,7 +66,7 @@ cli_text_or_file (const char *given, const char *path)
 
   if (!path)
     return g_strdup (given ? given : "");
-  text = cli_file_read (path, &length);
+  text = cli_file_read (path, CLI_MOST_TEXT, false, &length);
   if (text && strlen (text) < length)
     {
       cli_say ("Cannot read \"%s\": it is not a text file.", path);
@@ -123,9 +123,10 @@ cli_check_relations (CeldStatus status, const CliOptions *options, const CeldTex
 static char *
 text_of_file (const char *path)
 {
-  char *text = NULL;
+  gsize length;
+  char *text = path ? cli_file_read (path, CLI_MOST_TEXT, true, &length) : NULL;
 
-  return path && g_file_get_contents (path, &text, NULL, NULL) ? text : g_strdup ("");
+  return text ? text : g_strdup ("");
 }
 
 static bool
@@ -205,7 +206,7 @@ bool
 cli_json_read (JsonParser *parser, const char *path)
 {
   gsize   length = 0;
-  char   *text = cli_file_read (path, &length);
+  char   *text = cli_file_read (path, CLI_MOST_TEXT, false, &length);
   GError *error = NULL;
   bool    good = text && json_parser_load_from_data (parser, text, (gssize) length, &error);
   guint   line = 1;

@@ -745,6 +745,24 @@ class BadInput(Test):
                     else:
                         self.fails('popup', name, '--depth', 'd.png', naming=name)
 
+    def test_endless_files(self):
+        """Memory is not what ends their reading."""
+        def refuses(*words):
+            done = subprocess.run([COMMAND, *words], cwd=self.folder, check=False, capture_output=True, text=True,
+                                  preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (4 << 30, 4 << 30)))
+            self.assertEqual((done.returncode, done.stderr), (1, 'celdepth: Cannot read "/dev/zero": it is larger than '
+                                                                 '64 MiB.\n'))
+
+        input_files = 'drawing.png', '--scribbles', 'scribbles.png'
+        refuses('popup', *input_files, '--relations-file', '/dev/zero', '--depth', 'd.png')
+        refuses('deform', *input_files, '--handles-file', '/dev/zero', '--output', 'd.png')
+        refuses('deform', *input_files, '--keys', '/dev/zero', '--output', 'd.gif')
+        refuses('compose', '/dev/zero', '--output', 'd.png')
+        self.celdepth('popup', *input_files, '--relations-file', '/dev/null', '--depth', 'd.png')
+        write_ora(self.path('page.ora'), (WIDTH, HEIGHT), '<stack/>', {})
+        self.assertIn('"/dev/zero": it is not an ordinary file', self.celdepth(
+            'popup', 'page.ora', '--relations-file', '/dev/zero', '--output-dir', 'out', code=1))
+
     def test_sizes_out_of_range(self):
         for width, height in ((30000, 10), (10, 30000), (20000, 20000), (2 ** 31 - 1, 2 ** 31 - 1)):
             header = struct.pack('>IIBBBBB', width, height, 8, 0, 0, 0, 0)
