@@ -19,6 +19,7 @@
  *   sequence.c  frames of a clip                clip.c      --clip
  *   clip-keys.c, clip-frame.c, review.c         for propagate; the first two also for inbetween
  *   pages.c     --output-dir: many pages        watch.c     --watch
+ *   read-file.c, json.c  whole files
  *   fingerprint.c  what need not be made again  unfinished.c  files that are being written
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later

@@ -192,7 +192,7 @@ cli_frame_read_state (const CliMotion *motion, size_t frame, const char *fingerp
 {
   char       *path = cli_frame_path (motion, "state", frame, state->side);
   JsonParser *parser = json_parser_new_immutable ();
-  JsonNode   *root = json_parser_load_from_file (parser, path, NULL) ? json_parser_get_root (parser) : NULL;
+  JsonNode   *root = cli_json_read (parser, path, true) ? json_parser_get_root (parser) : NULL;
   bool        good = root && JSON_NODE_HOLDS_OBJECT (root) &&
                      read_object (motion, json_node_get_object (root), fingerprint, state);
 

@@ -68,7 +68,7 @@ read_clip (const char *folder, CliClip *clip)
     good = cli_error ("\"%s\" is no clip: it has no %s, which 'celdepth propagate --labels-dir %s' writes.", folder,
                       CLI_CLIP_FILE, folder);
   else
-    good = cli_json_read (parser, path) && read_description (json_parser_get_root (parser), full, path, clip);
+    good = cli_json_read (parser, path, false) && read_description (json_parser_get_root (parser), full, path, clip);
   g_object_unref (parser);
   g_free (path);
   g_free (full);

@@ -261,7 +261,7 @@ cli_composition_read (const char *path, const CliOptions *options, CliCompositio
   bool        good;
 
   *c   = (CliComposition) { .path = path };
-  good = cli_json_read (parser, path);
+  good = cli_json_read (parser, path, false);
   root = good ? json_parser_get_root (parser) : NULL;
   if (good && (!root || !JSON_NODE_HOLDS_OBJECT (root)))
     good = cli_error ("\"%s\": a composition is an object such as { \"fragments\": [ { \"drawing\": \"man.png\" } ] }.",

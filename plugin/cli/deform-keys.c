@@ -143,7 +143,7 @@ bool
 cli_handle_keys_read (const char *path, CliHandleKeys *keys)
 {
   JsonParser *parser = json_parser_new ();
-  bool        good = cli_json_read (parser, path) && read_root (path, json_parser_get_root (parser), keys);
+  bool        good = cli_json_read (parser, path, false) && read_root (path, json_parser_get_root (parser), keys);
 
   g_object_unref (parser);
   return good;

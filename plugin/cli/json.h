@@ -11,7 +11,7 @@
 /* Writes what was built, indented, as cli_write_text does, and frees the builder. */
 bool cli_write_json (const char *path, JsonBuilder *json);
 
-/* Reads a file into the parser; false with a message. */
-bool cli_json_read (JsonParser *parser, const char *path);
+/* Reads a file into the parser; false with a message, unless `quiet`. */
+bool cli_json_read (JsonParser *parser, const char *path, bool quiet);
 
 #endif

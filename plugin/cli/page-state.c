@@ -62,7 +62,7 @@ cli_page_is_made (const CliPage *page, bool *contradicted)
   const CliBook *book = page->book;
   char       *path = cli_page_state_path (page);
   JsonParser *parser = json_parser_new_immutable ();
-  JsonNode   *root = json_parser_load_from_file (parser, path, NULL) ? json_parser_get_root (parser) : NULL;
+  JsonNode   *root = cli_json_read (parser, path, true) ? json_parser_get_root (parser) : NULL;
   JsonObject *state = root && JSON_NODE_HOLDS_OBJECT (root) ? json_node_get_object (root) : NULL;
   bool        made = state && !g_strcmp0 (json_object_get_string_member_with_default (state, "fingerprint", NULL),
                                           page->fingerprint);

@@ -3,7 +3,6 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "cli.h"
-#include "json.h"
 
 #include <errno.h>
 #include <glib/gstdio.h>
@@ -199,39 +198,6 @@ cli_write_text (const char *path, const char *text)
   if (!good && file)
     g_unlink (unfinished);
   g_free (unfinished);
-  return good;
-}
-
-bool
-cli_json_read (JsonParser *parser, const char *path)
-{
-  gsize   length = 0;
-  char   *text = cli_file_read (path, CLI_MOST_TEXT, false, &length);
-  GError *error = NULL;
-  bool    good = text && json_parser_load_from_data (parser, text, (gssize) length, &error);
-  guint   line = 1;
-
-  if (error)
-    {
-      sscanf (error->message, "<data>:%u:", &line); /* the parser forgets where it was */
-      cli_say ("Cannot read \"%s\": line %u is no JSON.", path, line);
-      g_error_free (error);
-    }
-  g_free (text);
-  return good;
-}
-
-bool
-cli_write_json (const char *path, JsonBuilder *json)
-{
-  JsonNode *root = json_builder_get_root (json);
-  char     *data = json_to_string (root, TRUE), *text = g_strconcat (data, "\n", NULL);
-  bool      good = cli_write_text (path, text);
-
-  g_free (text);
-  g_free (data);
-  json_node_unref (root);
-  g_object_unref (json);
   return good;
 }
 

@@ -763,6 +763,23 @@ class BadInput(Test):
         self.assertIn('"/dev/zero": it is not an ordinary file', self.celdepth(
             'popup', 'page.ora', '--relations-file', '/dev/zero', '--output-dir', 'out', code=1))
 
+    def test_deep_json(self):
+        """Wherever JSON is read, what is nested without end is refused; as the state of a page it is out of date."""
+        os.makedirs(self.path('clip'))
+        for name in ('s.json', 'clip/clip.json'):
+            with open(self.path(name), 'w', encoding='ascii') as file:
+                file.write('["]]\\"]",\n' * 100000)
+        input_files = 'drawing.png', '--scribbles', 'scribbles.png'
+        for words in (('compose', 's.json', '--output', 'o.png'),
+                      ('deform', *input_files, '--keys', 's.json', '--output', 'o.gif'),
+                      ('shade', '--clip', 'clip', '--shaded', 'o.png')):
+            self.fails(*words, naming='.json": line 101 has more than 100 arrays and objects in each other.')
+        write_psd(self.path('p1.psd'), (WIDTH, HEIGHT), [('drawing', 0, 0, drawing().convert('RGBA')),
+                                                        ('scribbles', 0, 0, scribbles())])
+        os.mkdir(self.path('out'))
+        shutil.copy(self.path('s.json'), self.path('out/.p1.state.json'))
+        self.assertIn('1 made', self.celdepth('popup', 'p1.psd', '--output-dir', 'out', '--labels'))
+
     def test_sizes_out_of_range(self):
         for width, height in ((30000, 10), (10, 30000), (20000, 20000), (2 ** 31 - 1, 2 ** 31 - 1)):
             header = struct.pack('>IIBBBBB', width, height, 8, 0, 0, 0, 0)
