@@ -131,8 +131,10 @@ const char *cli_in_language (const char *text);
 bool cli_check (CeldStatus status);
 /* Prints the contradictions of an order. */
 void cli_say_cycles   (const CliOptions *options, const CeldOrder *order, const CeldRelations *relations);
-/* Prints the first problems that are no contradictions. */
-void cli_say_problems (const CeldProblems *problems, const CeldPalette *palette, const CeldRelations *relations);
+/* Prints the first problems that are no contradictions; those of relations with the text of the options that has them,
+ * if there are options. */
+void cli_say_problems (const CliOptions *options, const CeldProblems *problems, const CeldPalette *palette,
+                       const CeldRelations *relations);
 
 /* nearest-name.c: the name in a list that ends with NULL that is most like a word; NULL if none is like it. */
 const char *cli_nearest_name (const char *word, const char *const *names);

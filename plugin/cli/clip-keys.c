@@ -149,7 +149,7 @@ read_key (CliMotion *motion, CliRun *run, CliKey *key, GString *relations, GArra
     cli_run_stage (run, "keys");
   good = good && cli_run_finish (run, make_key (motion, session, run, key, relations, list));
   if (good)
-    cli_say_problems (celd_session_problems (session), celd_session_palette (session),
+    cli_say_problems (&options, celd_session_problems (session), celd_session_palette (session),
                       celd_session_relations (session));
   celd_session_free (session);
   return good;

@@ -351,7 +351,7 @@ finish (const Compose *c)
     }
   say_cycles (c);
   if (!c->options->quiet)
-    cli_say_problems (&c->problems, NULL, &c->relations);
+    cli_say_problems (NULL, &c->problems, NULL, &c->relations);
   celd_composition_cycles (c->made, &cycles);
   return cycles ? CLI_CONTRADICTED : code;
 }

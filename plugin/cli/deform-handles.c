@@ -26,7 +26,7 @@ read_painted (const CliOptions *options, CliLayers *layers, CliRun *run, CeldHan
                         cli_run_finish (run, celd_handles_read (&paint, style, &run->host, handles, &problems));
 
   if (good && !options->quiet)
-    cli_say_problems (&problems, NULL, NULL);
+    cli_say_problems (NULL, &problems, NULL, NULL);
   celd_problems_clear (&problems);
   g_free (paint.data);
   return good;

@@ -25,9 +25,11 @@ has_layer (const char *path, const char *role)
 bool
 cli_check_different_files (const CliOptions *options)
 {
+  bool of_regions = options->step == CLI_ORDER, of_levels = options->drawing && !of_regions;
+
   const struct { const char *name, *role, *path; } layer[] = {
-    { "the drawing", "drawing", options->drawing ? options->drawing : options->input },
-    { "levels or regions", "levels", options->drawing ? options->input : NULL },
+    { "the drawing", "drawing", of_regions || of_levels ? options->drawing : options->input },
+    { of_regions ? "the regions" : "the levels", "levels", of_regions || of_levels ? options->input : NULL },
     { "--scribbles", "scribbles", options->scribbles }, { "--arrows", "arrows", options->arrows },
     { "--contours", "contours", options->contours }, { "--corrections", "corrections", options->corrections },
     { "--hidden", "hidden", options->hidden },
@@ -166,8 +168,8 @@ bool
 cli_check_levels (const char *path, const CeldPlane *levels)
 {
   return celd_are_levels (levels) ||
-         cli_error ("\"%s\" looks like a photograph: levels have one value for each part, such as popup writes them "
-                    "with --levels.", path);
+         cli_error ("\"%s\" looks like a photograph: levels have one value for each part, as popup writes them with "
+                    "--levels.", path);
 }
 
 bool

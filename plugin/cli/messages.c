@@ -135,19 +135,39 @@ cli_say_cycles (const CliOptions *options, const CeldOrder *order, const CeldRel
     }
 }
 
+/* Prints one problem.  A relation is in a line of --relations or of a file, and not of both together. */
+static void
+say_problem (const CliOptions *options, const CeldProblem *problem, const CeldPalette *palette,
+             const CeldRelations *relations)
+{
+  char          text[800];
+  CeldProblem   about = *problem;
+  CeldRelation  relation;
+  CeldRelations one = { &relation, 1 };
+  const char   *from = NULL;
+
+  if (options && relations && problem->relation < relations->n)
+    {
+      relation = relations->item[problem->relation];
+      if (relation.source == CELD_SOURCE_TEXT)
+        from = cli_relations_place (options, &relation.line);
+      relations      = &one;
+      about.relation = 0;
+    }
+  celd_problem_text (&about, palette, relations, cli_in_language, text, sizeof text);
+  cli_say ("%s%s%s%s", from ? from : "", from ? ": " : "", text,
+           problem->kind == CELD_PROBLEM_HIDDEN_UNSURE ? _ (" Give it by --hidden.") : "");
+}
+
 void
-cli_say_problems (const CeldProblems *problems, const CeldPalette *palette, const CeldRelations *relations)
+cli_say_problems (const CliOptions *options, const CeldProblems *problems, const CeldPalette *palette,
+                  const CeldRelations *relations)
 {
   size_t n = 0;
 
   for (size_t i = 0; problems && i < problems->n; i++)
     if (problems->item[i].kind != CELD_PROBLEM_CONTRADICTION && n++ < MOST_PROBLEMS)
-      {
-        char text[800];
-
-        celd_problem_text (&problems->item[i], palette, relations, cli_in_language, text, sizeof text);
-        cli_say ("%s%s", text, problems->item[i].kind == CELD_PROBLEM_HIDDEN_UNSURE ? _ (" Give it by --hidden.") : "");
-      }
+      say_problem (options, &problems->item[i], palette, relations);
   if (n > MOST_PROBLEMS)
     {
       unsigned more = (unsigned) n - MOST_PROBLEMS;
@@ -179,6 +199,6 @@ cli_finish (const CliOptions *options, const CliReport *report)
   if (!options->quiet && report->order)
     say_beyond_scale (report->order, &options->settings);
   if (!options->quiet)
-    cli_say_problems (report->problems, report->palette, report->relations);
+    cli_say_problems (options, report->problems, report->palette, report->relations);
   return report->order && report->order->n_cycles ? CLI_CONTRADICTED : CLI_DONE;
 }

@@ -48,7 +48,7 @@ run_smooth (const CliOptions *options)
     {
       CeldProblem problem = { .kind = CELD_PROBLEM_NOT_CONVERGED, .relation = CELD_NO_INDEX };
 
-      cli_say_problems (&(CeldProblems) { .item = &problem, .n = 1 }, NULL, NULL);
+      cli_say_problems (NULL, &(CeldProblems) { .item = &problem, .n = 1 }, NULL, NULL);
     }
   g_free (anchors.data);
   return cli_step_end (&step, good);

@@ -94,7 +94,7 @@ cli_relations_place (const CliOptions *options, int *line)
   for (const char *c = options->relations; c && *c; c++)
     before += *c == '\n';
   if (!options->relations_file || *line <= before)
-    return "--relations";
+    return options->step == CLI_COMPOSE ? "\"relations\"" : "--relations";
   *line -= before;
   return options->relations_file;
 }

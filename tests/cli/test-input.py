@@ -472,7 +472,10 @@ class Nonsense(Test):
                    naming='given as the drawing and as --scribbles')
         self.popup('--levels', 'levels.png', '--relations', RELATIONS)
         self.fails('shade', 'levels.png', '--drawing', 'levels.png', '--shading', 's.png',
-                   naming='given as the drawing and as levels')
+                   naming='given as the drawing and as the levels')
+        self.celdepth('segment', 'drawing.png', '--scribbles', 'scribbles.png', '--labels', 'flat.png')
+        self.fails('order', 'flat.png', '--arrows', 'flat.png', '--unexpanded-levels', 'u.npy',
+                   naming='given as the regions and as --arrows')
         write_psd(self.path('page.psd'), (WIDTH, HEIGHT), layers())
         self.celdepth('segment', 'page.psd', '--scribbles', 'page.psd', '--labels', 'l.png')
 

@@ -166,6 +166,12 @@ class Usage(Test):
         self.wrong('popup', 'drawing.png', '--depth', 'b.png', '--relations', '1,1 > 2,2;\n20,20 > 1,1',
                    '--relations-file', 'r.txt', naming='r.txt, line 3, column 8')
 
+        with open(self.path('r.txt'), 'w', encoding='utf-8') as file:
+            file.write('70,45 > 20,20\n#123456 > 1,1\n')
+        said = self.popup('--relations', '20,20 > 999,1', '--relations-file', 'r.txt', '--levels', 'both.npy')
+        self.assertIn('celdepth: --relations: The relation in line 1, column 1 names a point outside', said)
+        self.assertIn('celdepth: r.txt: The relation in line 2, column 1 names a colour', said)
+
     def test_standard_input_and_output(self):
         def run(*words, given):
             with open(self.path(given), 'rb') as file:
