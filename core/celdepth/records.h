@@ -303,11 +303,12 @@ CELD_API void celd_lattice_free (CeldLattice *lattice);       /* accepts NULL */
  * corner at (x,y), and then turned clockwise round its middle. */
 typedef struct
 {
-  double x, y;                  /* pixels */
+  double x, y;                  /* pixels, up to CELD_FARTHEST_PLACE to either side, where nothing is seen */
   double scale;                 /* CELD_LEAST_SCALE .. CELD_LARGEST_SCALE */
-  double turn;                  /* degrees */
+  double turn;                  /* degrees, up to CELD_FARTHEST_PLACE either way */
   bool   flip;
 } CeldPlacement;
+#define CELD_FARTHEST_PLACE 1e6
 #define CELD_LEAST_SCALE   0.001
 #define CELD_LARGEST_SCALE 1000.0
 

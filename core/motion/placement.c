@@ -7,8 +7,6 @@
  */
 #include "motion/compose.h"
 
-#define FARTHEST 1e6 /* pixels; farther away nothing is seen, and rounding errors grow; chosen */
-
 static void
 turn_to (double degrees, double *cosine, double *sine)
 {
@@ -29,7 +27,7 @@ turn_to (double degrees, double *cosine, double *sine)
 static bool
 is_near (double value)
 {
-  return fabs (value) <= FARTHEST; /* false for NaN */
+  return fabs (value) <= CELD_FARTHEST_PLACE; /* chosen: rounding errors grow; false for NaN */
 }
 
 CeldStatus

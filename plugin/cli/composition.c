@@ -7,6 +7,7 @@
 #include "composition.h"
 #include "json.h"
 
+#include <math.h>
 #include <stddef.h>
 #include <string.h>
 
@@ -156,6 +157,8 @@ name_of_file (const char *path)
 static bool
 check_fragment (const CliComposition *c, CliFragment *f)
 {
+  const struct { const char *member; double value; } place[] = {
+    { "x", f->placement.x }, { "y", f->placement.y }, { "turn", f->placement.turn } };
   int number = (int) (f - c->fragment) + 1;
 
   if (!f->options.input)
@@ -172,6 +175,10 @@ check_fragment (const CliComposition *c, CliFragment *f)
   if (!(f->placement.scale >= CELD_LEAST_SCALE && f->placement.scale <= CELD_LARGEST_SCALE))
     return cli_error ("\"%s\", fragment %d (%s): \"scale\" must be from %g to %g.", c->path, number, f->name,
                       CELD_LEAST_SCALE, CELD_LARGEST_SCALE);
+  for (size_t i = 0; i < G_N_ELEMENTS (place); i++)
+    if (!(fabs (place[i].value) <= CELD_FARTHEST_PLACE))
+      return cli_error ("\"%s\", fragment %d (%s): \"%s\" must be from %.0f to %.0f.", c->path, number, f->name,
+                        place[i].member, -CELD_FARTHEST_PLACE, CELD_FARTHEST_PLACE);
   return !f->options.hidden || f->options.settings.complete ||
          cli_error ("\"%s\", fragment %d (%s): \"hidden\" needs --complete yes: other layers have nothing that is "
                     "hidden.", c->path, number, f->name);

@@ -105,9 +105,9 @@ static const FileOption files[] = {
   { "sequence", CLI_POPUP | CLI_STEREO, 0, FRAMES, MEMBER (sequence), "OUT",
     "write all --views in a file or folder: .mpo, .gif, or a folder of PNG files" },
   { "wiggle", CLI_POPUP, 0, FRAMES, MEMBER (wiggle), "OUT",
-    "write an animation of a camera that moves: .gif, or a folder of PNG files; for it --disparity is 0.05 if not given" },
+    "write an animation of a camera that moves: .gif, .mpo, or a folder of PNG files; for it --disparity is 0.05 if not given" },
   { "output", CLI_WIGGLE, CLI_WIGGLE, FRAMES, MEMBER (wiggle), "OUT",
-    "write the animation: .gif, or a folder of PNG files" },
+    "write the animation: .gif, .mpo, or a folder of PNG files" },
   { "colours", COLOURED, 0, INPUT, MEMBER (colours), "PICTURE",
     "a coloured version of the drawing, used instead of it for light, shadows, layers, views, meshes and motion" },
   { "compositing", CLI_POPUP | CLI_LAYERS | CLI_COMPOSE | CLI_DEFORM, 0, HOW, MEMBER (compositing), "encoded|linear",
@@ -362,27 +362,8 @@ cli_files_check (const CliCommand *command, CliOptions *options)
       if (!name || files[i].kind < OUTPUT || !(files[i].steps & (int) command->step))
         continue;
       outputs++;
-      if (files[i].kind == OUTPUT && !cli_can_write (name))
-        return cli_error ("--%s %s: the name must end in .png, .exr, .tif or .npy.", files[i].name, name);
-      if (files[i].kind == JOINED && !cli_can_write (name) && celd_io_frames_kind (name) != CELD_IO_MPO)
-        return cli_error ("--%s %s: the name must end in .png, .exr, .tif, .npy or .mpo.", files[i].name, name);
-      if (files[i].kind == FRAMES && !celd_io_frames_kind (name))
-        return cli_error ("--%s %s: the name must end in .gif or .mpo, or have no ending for a folder.",
-                          files[i].name, name);
-      if (files[i].kind == MOVING && !cli_can_write (name) && !cli_is_motion (name))
-        return cli_error ("--%s %s: the name must end in .png, .exr, .tif, .npy or .gif, or have no ending for a "
-                          "folder.", files[i].name, name);
-      if (files[i].kind == DEFORMED && !cli_can_write (name) && !cli_is_motion (name) && !celd_io_stack_kind (name))
-        return cli_error ("--%s %s: the name must end in .png, .exr, .tif, .npy, .ora, .psd or .gif, or have no ending "
-                          "for a folder.", files[i].name, name);
-      if (files[i].kind == STACK && !celd_io_stack_kind (name))
-        return cli_error ("--%s %s: the name must end in .ora, .psd or .exr, or have no ending for a folder.",
-                          files[i].name, name);
-      if (files[i].kind == COMPOSED && !cli_can_write (name) && !celd_io_stack_kind (name))
-        return cli_error ("--%s %s: the name must end in .png, .tif, .npy, .ora, .psd or .exr, or have no ending for a "
-                          "folder.", files[i].name, name);
-      if (files[i].kind == MESH && !celd_io_mesh_kind (name))
-        return cli_error ("--%s %s: the name must end in .glb, .obj, .ply or .stl.", files[i].name, name);
+      if (!cli_ending_check (options, &(CliFile) { files[i].name, files[i].kind, name }))
+        return false;
     }
   if (!outputs && !options->maps && !options->labels_dir)
     return cli_error ("There is nothing to write: give at least one output, such as --%s.", command->output);

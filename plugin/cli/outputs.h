@@ -20,6 +20,9 @@ typedef struct { const char *option; CliFileKind kind; const char *path; } CliFi
 /* options-files.c: appends the files that are given, CliFile; their names stay those of the options. */
 void cli_files_given (const CliOptions *options, GArray *given);
 
+/* endings.c: whether the name of an output has an ending that it can have; if not, prints which ones it can. */
+bool cli_ending_check (const CliOptions *options, const CliFile *file);
+
 /* A text that is the same for all names of a file, also those by links; free with g_free. */
 char *cli_file_identity (const char *path);
 

@@ -203,7 +203,7 @@ class Compose(Test):
                 ({'fragments': [{**good, 'name': 'a b'}]}, 'the name "a b"'),
                 ({'fragments': [{**good, 'name': ''}]}, 'the name ""'),
                 ({'fragments': [{**good, 'x': '3'}]}, '"x" must be a number'),
-                ({'fragments': [{**good, 'x': 1e300}]}, 'range'),
+                ({'fragments': [{**good, 'x': 1e300}]}, '"x" must be from -1000000 to 1000000'),
                 ({'fragments': [{**good, 'flip': 1}]}, '"flip" must be true or false'),
                 ({'fragments': [{**good, 'scale': 0}]}, '"scale" must be from 0.001 to 1000'),
                 ({'fragments': [{**good, 'relations': [1]}]}, '"relations" must be a text or a list'),

@@ -240,6 +240,15 @@ class Models(Test):
         self.assertLessEqual(len(read_mesh(self.path('a.ply'))[0]), most)
         self.assertIn('outlines alone', self.relief('--mesh', 'b.ply', '--most-vertices', '1000', code=1))
 
+    def test_no_room_in_the_texture(self):
+        long = np.full((40, 20000), 255, np.uint8)
+        long[[10, 30], 5:19990] = long[10:30, 5] = long[10:30, 19989] = 0
+        Image.fromarray(long).save(self.path('long.png'))
+        strokes = np.zeros((40, 20000, 4), np.uint8)
+        strokes[20:23, 50:60] = (255, 0, 0, 255)
+        Image.fromarray(strokes).save(self.path('strokes.png'))
+        self.fails('relief', 'long.png', '--scribbles', 'strokes.png', '--mesh', 'm.glb', naming='Make the drawing smaller.')
+
     def test_failures(self):
         self.assertIn('--drawing', self.relief('--drawing', 'drawing.png', '--mesh', 'a.glb', code=2))
         self.assertIn('levels', self.relief('--regions', 'art.png', '--mesh', 'a.glb', code=2))

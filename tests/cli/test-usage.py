@@ -192,7 +192,7 @@ class Usage(Test):
         for words, said in ((('-', '--scribbles', '-', '--depth', 'd.png'),
                              'DRAWING|LAYERED and --scribbles cannot both be read from standard input'),
                             (('drawing.png', '--depth', '-', '--levels', '-'), 'cannot both be written'),
-                            (('drawing.png', '--depth', '-', '--format', 'jpg'), 'standard output.jpg: the name must'),
+                            (('drawing.png', '--depth', '-', '--format', 'jpg'), '--format jpg: for --depth it must be .png, .exr,'),
                             (('drawing.png', '--depth', 'd.png', '--format', 'npy'), 'give an output the name "-"')):
             done = run('popup', *words, given='drawing.png')
             self.assertEqual((done.returncode, done.stdout), (2, b''))
@@ -295,6 +295,12 @@ class Usage(Test):
         for name in ('depth.jpg', 'depth', 'png', '.npy'):
             with self.subTest(name):
                 self.wrong('popup', 'a.png', '--depth', name, naming='must end in')
+        for option, name, ending in (('--report', 'r.png', '.json'), ('--suggestions', 's.PNG', '.txt'),
+                                     ('--report', 'r.glb', '.json'), ('--suggestions', 's.ora', '.txt')):
+            self.wrong('popup', 'a.png', option, name, naming=f'{option} {name}: it is text, so the name must not be '
+                                                              f'that of a picture. Let it end in {ending}.')
+        self.wrong('propagate', 'a_1.png', '--key', '1', '--scribbles', 's.png', '--labels-dir', 'c', '--report', 'r.png',
+                   naming='Let it end in .json')
         self.wrong('popup', 'a.png', '--depth', 'a.png', naming='overwrite')
         self.wrong('popup', 'a.png', '--depth', 'b.png', '--levels', './b.png', naming='same file')
         self.wrong('popup', 'a.png', '--scribbles', 's.png', '--depth', 's.png', naming='same file')
