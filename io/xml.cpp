@@ -84,11 +84,14 @@ parse_xml (const std::string &text, const std::string &file)
   GError              *error   = nullptr;
   const bool           good    = g_markup_parse_context_parse (context, text.data (), gssize (text.size ()), &error) &&
                     g_markup_parse_context_end_parse (context, &error);
-  const std::string    why     = good ? "" : error->message;
+  const bool           ours    = !good && g_error_matches (error, G_MARKUP_ERROR, G_MARKUP_ERROR_INVALID_CONTENT);
+  const std::string    why     = ours ? error->message : "";
+  gint                 line    = 1;
 
+  g_markup_parse_context_get_position (context, &line, nullptr);
   g_clear_error (&error);
   g_markup_parse_context_free (context);
   if (!good)
-    throw IoFailure ("its " + file + " is damaged (" + why + ").");
+    throw IoFailure ("its " + file + " is damaged" + (ours ? " (" + why + ")." : ", in line " + std::to_string (line) + "."));
   return std::move (open[0].children.at (0));
 }

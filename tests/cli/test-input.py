@@ -672,12 +672,15 @@ class BadInput(Test):
         deform = 'deform', 'drawing.png', '--scribbles', 'scribbles.png', '--output', 'o.gif', '--keys'
         order = 'order', 'none.npy', '--unexpanded-levels', 'u.npy'
         for words, said in ((('compose', 'none.json', '--output', 'o.png'), '"none.json": No such file or directory.'),
-                            (('compose', 'folder', '--output', 'o.png'), '"folder": Is a directory.'),
+                            (('compose', 'folder', '--output', 'o.png'), '"folder": it is a folder.'),
                             (('compose', 'bad.json', '--output', 'o.png'), '"bad.json": line 2 is no JSON.'),
                             ((*order, '--drawing', 'drawing.png'), '"none.npy": No such file or directory.'),
                             (('popup', 'drawing.png', '--relations-file', 'none.txt', '--depth', 'd.png'),
                              '"none.txt": No such file or directory.')):
             self.assertEqual(self.celdepth(*words, code=1), f'celdepth: Cannot read {said}\n')
+        write_ora(self.path('bad.ora'), (WIDTH, HEIGHT), '<stack>\n<layer name="a" /></stak>', {})
+        self.assertEqual(self.celdepth('popup', 'bad.ora', '--depth', 'd.png', code=1),
+                         'celdepth: Cannot read "bad.ora": its stack.xml is damaged, in line 2.\n')
         self.assertIn('Cannot read "bad.json": line 2 is no JSON.', self.celdepth(*deform, 'bad.json', code=1))
 
     def test_closed_files(self):
