@@ -5,7 +5,7 @@
  *
  *   cli.c       chooses the sub-command         pictures*.c reads and writes pictures
  *   options*.c  options of a sub-command        npy.c       reads and writes numpy files
- *   outputs.c, endings.c  what may be written
+ *   effects.c   options in vain                 outputs.c, endings.c  what may be written
  *   help.c      --help of a sub-command         streams.c   "-": standard input and output
  *   input.c     reads a drawing and its layers  text.c      relations as text, text files
  *   input-checks.c, photograph.c  refuse what makes no sense

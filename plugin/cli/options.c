@@ -254,10 +254,12 @@ check_input (const CliCommand *command, int argc, char **argv, CliOptions *optio
 static bool
 check (const CliCommand *command, int argc, char **argv, CliOptions *options)
 {
-  if (!check_input (command, argc, argv, options))
+  if (!check_input (command, argc, argv, options) || !cli_effects_check (options))
     return false;
   cli_counts_complete (options);
   cli_settings_complete (options);
+  if (!cli_setting_effects_check (options))
+    return false;
   if (options->settings.background == CELD_BACKGROUND_COLOUR && !options->background_colour)
     return cli_error ("--background colour needs --background-colour.");
   if (celd_settings_check (&options->settings) != CELD_OK)

@@ -71,6 +71,13 @@ void cli_settings_clear (CliOptions *options);
 /* Reads yes, no, true or false; false: it is none of these, and *on stays as it is. */
 bool cli_switch_read (const char *text, bool *on);
 
+/* ------------------------------------------------------------------ effects.c */
+
+/* Whether no option is in vain; if not, prints what is missing.  To be called before those that were not given get their
+ * values; and for settings, after it. */
+bool cli_effects_check         (const CliOptions *options);
+bool cli_setting_effects_check (const CliOptions *options);
+
 /* ------------------------------------------------------------------ options-clip.c */
 
 /* Adds the options of propagate that may be repeated. */

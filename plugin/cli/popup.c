@@ -9,8 +9,6 @@ check (CliOptions *options)
 {
   if (options->watch && options->output_dir)
     return cli_error ("--watch shows one page: leave out --output-dir.");
-  if (options->compositing && !options->layers)
-    return cli_error ("--compositing is about --layers, which is missing.");
   if (!cli_compositing_check (options) || !cli_maps_check (options))
     return false;
   return options->settings.light_model != CELD_MODEL_MATCAP ||

@@ -153,7 +153,7 @@ class OneRun(Test):
         self.fails('popup', *INPUT, '--shaded', 'lit.png', '--colours', 'none.png', naming='"none.png"')
         self.assertIn('--layers page.jpg: the name must end in', self.celdepth('popup', *INPUT, '--layers', 'page.jpg',
                                                                               code=2))
-        for words, message in ((('--compositing', 'linear'), 'about --layers'),
+        for words, message in ((('--compositing', 'linear', '--depth', 'd.png'), 'without --layers'),
                                (('--compositing', 'candle', '--layers', 'a.ora'), 'encoded or linear'),
                                (('--compositing', 'encoded', '--layers', 'a.exr'), 'linear light')):
             self.assertIn(message, self.celdepth('popup', *INPUT, *words, code=2))

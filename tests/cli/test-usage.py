@@ -291,6 +291,18 @@ class Usage(Test):
         self.wrong('popup', 'a.png', '--depth', 'b.png', '--encoding', 'fixed', '--near-level', '2', '--far-level', '3',
                    naming='--near-level')
 
+    def test_options_in_vain(self):
+        """Those whose result or choice is missing."""
+        words = 'popup', 'a.png', '--depth', 'b.png'
+        for option, needed in (('--directx', '--maps or --normals'), ('--padding 3', '--maps'), ('--columns 3', '--quilt'),
+                               ('--compositing linear', '--layers'), ('--views 4', '--quilt or --sequence'),
+                               ('--frames 3', '--wiggle'), ('--fps 9', '--wiggle or --sequence'),
+                               ('--size 99', '--wiggle or --sequence'), ('--jobs 2', '--output-dir'),
+                               ('--near-level 2', '--encoding fixed'), ('--light-x 0.1', '--light point')):
+            self.wrong(*words, *option.split(), naming=f'{option.split()[0]} has no effect without {needed}.')
+        self.wrong('shade', 'l.npy', '--drawing', 'a.png', '--shaded', 's.png', '--padding', '3', naming='without --maps')
+        self.wrong('stereo', 'a.png', '--left', 'l.png', '--views', '3', naming='without --quilt')
+
     def test_wrong_files(self):
         for name in ('depth.jpg', 'depth', 'png', '.npy'):
             with self.subTest(name):
