@@ -314,7 +314,9 @@ stream_file (const FileOption *file, CliOptions *options)
   char  *what = g_strconcat ("--", file->name, NULL);
   bool   good = true;
 
-  if (!*name || strcmp (*name, "-") != 0 || file->kind == TEXT)
+  if (*name && !**name && file->kind != TEXT)
+    good = cli_error ("%s needs a value: %s %s.", what, what, file->value);
+  else if (!*name || strcmp (*name, "-") != 0 || file->kind == TEXT)
     good = true;
   else if (options->watch)
     good = cli_error ("%s cannot be \"-\" with --watch, which waits for files to be saved.", what);

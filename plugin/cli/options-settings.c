@@ -177,7 +177,7 @@ allowed (const CeldSettingInfo *row)
       g_string_append (words, "a colour such as #ff8000");
       break;
     default:
-      g_string_append_printf (words, "%sbetween %s and %s", row->type == CELD_SETTING_INTEGER ? "a whole number " : "",
+      g_string_append_printf (words, "%s between %s and %s", row->type == CELD_SETTING_INTEGER ? "a whole number" : "a number",
                               least, most);
     }
   g_free (least);
@@ -185,12 +185,33 @@ allowed (const CeldSettingInfo *row)
   return g_string_free (words, FALSE);
 }
 
+/* What was probably meant, as a sentence with a space before it; "" if that is not known.  Free with g_free. */
+static char *
+hint (const CeldSettingInfo *row, const char *text)
+{
+  const char **names = g_new0 (const char *, row->choices + 1), *nearest = NULL;
+  char        *point = g_strdelimit (g_strdup (text), ",", '.'), *said;
+  double       value;
+  bool         comma = strcmp (point, text) && row->type != CELD_SETTING_CHOICE && read_value (row, point, &value);
+
+  for (size_t i = 0; i < row->choices; i++)
+    names[i] = row->choice[i].nick;
+  if (row->type == CELD_SETTING_CHOICE)
+    nearest = cli_nearest_name (text, names);
+  said = nearest ? g_strdup_printf (" Did you mean %s?", nearest)
+         : comma ? g_strdup_printf (" Numbers have a decimal point: %s.", point) : g_strdup ("");
+  g_free (point);
+  g_free (names);
+  return said;
+}
+
 static void
 refuse (const CeldSettingInfo *row, const char *name, const char *text, GError **error)
 {
-  char *words = allowed (row);
+  char *words = allowed (row), *meant = hint (row, text);
 
-  g_set_error (error, G_OPTION_ERROR, G_OPTION_ERROR_BAD_VALUE, "%s must be %s, not '%s'.", name, words, text);
+  g_set_error (error, G_OPTION_ERROR, G_OPTION_ERROR_BAD_VALUE, "%s must be %s, not '%s'.%s", name, words, text, meant);
+  g_free (meant);
   g_free (words);
 }
 

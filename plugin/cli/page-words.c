@@ -45,6 +45,8 @@ take_result (CliBook *book, const CliCommand *command, const char *word, const c
   if (ending && value && (!value[1] || strchr (value, G_DIR_SEPARATOR) || strchr (value + 2, '.')))
     good = cli_error ("With --output-dir, results are named after their pages: give --%s, or its format, such as "
                       "--%s=%s.", option, option, ending);
+  else if (ending && !value && next && !strcmp (next, "-"))
+    good = cli_error ("With --output-dir, results are files named after their pages: give --%s without \"-\".", option);
   else if (ending && !value && next && next[0] != '-' && !g_file_test (next, G_FILE_TEST_EXISTS))
     good = cli_error ("There is no page \"%s\". With --output-dir, results are named after their pages: give --%s "
                       "without a name.", next, option);

@@ -393,6 +393,9 @@ check (CliOptions *options)
     return cli_error ("--key is missing: the number of a frame with --scribbles.");
   if (!options->key_scribbles || g_strv_length (options->key_scribbles) != keys)
     return cli_error ("Give one --scribbles for each --key, in the same order.");
+  for (guint i = 0; i < keys; i++)
+    if (!options->key_scribbles[i][0])
+      return cli_error ("--scribbles needs a value: --scribbles PICTURE.");
   if (options->key_arrows && g_strv_length (options->key_arrows) > keys)
     return cli_error ("There are more --arrows than --key.");
   if (!options->labels_dir)

@@ -145,7 +145,7 @@ class Usage(Test):
             self.wrong('popup', 'a.png', '--depth', 'b.png', *words, naming=f'{name} is given twice.')
 
     def test_messages_about_values(self):
-        for words, said in ((('--tolerance', '5'), "--tolerance must be between 0.0000001 and 0.1, not '5'."),
+        for words, said in ((('--tolerance', '5'), "--tolerance must be a number between 0.0000001 and 0.1, not '5'."),
                             (('--ink', 'Dark'), "--ink must be auto, dark, light, alpha or lines, not 'Dark'."),
                             (('--close-gaps', '1x'), "--close-gaps must be yes, no, true or false, not '1x'."),
                             (('--toon-steps', '2.5'), "--toon-steps must be a whole number between 2 and 5, not '2.5'.")):
@@ -278,6 +278,16 @@ class Usage(Test):
             self.assertIn(f'Did you mean {meant}?', self.celdepth(*words, code=2))
         for words in (['dance'], ['popup', 'drawing.png', '--quixotic'], ['x' * 200], ['popup', '--' + 'y' * 200]):
             self.assertNotIn('Did you mean', self.celdepth(*words, code=2))
+
+    def test_hints_about_values(self):
+        for words, said in ((('--hardness', '0,07'), "not '0,07'. Numbers have a decimal point: 0.07."),
+                            (('--light-azimuth', 'abc'), "must be a number between -360 and 360, not 'abc'."),
+                            (('--ink', 'drak'), "not 'drak'. Did you mean dark?"),
+                            (('--scribbles=',), '--scribbles needs a value: --scribbles PICTURE.'),
+                            (('--relations-file', ''), '--relations-file needs a value: --relations-file FILE.')):
+            self.wrong('popup', 'drawing.png', '--labels', 'l.png', *words, naming=said)
+        self.wrong('popup', 'drawing.png', '--output-dir', 'out', '--levels', '-', naming='give --levels without "-".')
+        self.wrong('propagate', 'a_1.png', '--key', '1', '--scribbles=', '--labels-dir', 'c', naming='--scribbles PICTURE')
 
     def test_wrong_values(self):
         for option, value in (('--hardness', '7'), ('--hardness', '0,5'), ('--hardness', 'nan'), ('--hardness', ''),
