@@ -162,6 +162,8 @@ typedef struct
   CliThreads *threads;
 } CliRun;
 
+/* Whether a person, or a program that asks for it, looks at how far the work is. */
+bool cli_progress_wanted (const CliOptions *options);
 /* `stages` are the names of the stages that may come, in their order, with spaces between; "views*24": it takes
  * 24 times as long as usual. */
 void cli_run_begin (CliRun *run, const CliOptions *options, const char *stages);

@@ -243,7 +243,7 @@ cli_clip_run (const CliCommand *command, const CliOptions *options)
     {
       int this;
 
-      if (!options->quiet)
+      if (cli_progress_wanted (options))
         cli_say ("Frame %d, %zu of %zu.", clip.frame[i].number, i + 1, clip.n);
       this = run_frame (command, options, &clip, &clip.frame[i]);
       good = (this == CLI_DONE || this == CLI_CONTRADICTED) && !cli_run_cancelled ();

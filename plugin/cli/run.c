@@ -164,6 +164,12 @@ each (void *host, int n, void (*body) (void *data, int i), void *data)
   cli_threads_each (run->threads, n, body, data);
 }
 
+bool
+cli_progress_wanted (const CliOptions *options)
+{
+  return !options->quiet && (options->progress || isatty (STDERR_FILENO));
+}
+
 void
 cli_run_begin (CliRun *run, const CliOptions *options, const char *stages)
 {
@@ -176,7 +182,7 @@ cli_run_begin (CliRun *run, const CliOptions *options, const char *stages)
   *run = (CliRun) {
     .host    = { progress, each, run },
     .timings = g_array_new (FALSE, FALSE, sizeof (CliTiming)),
-    .visible = !options->quiet && (options->progress || isatty (STDERR_FILENO)),
+    .visible = cli_progress_wanted (options),
     .plan    = g_strsplit (stages, " ", 0),
     .threads = cli_threads_new (),
     .done_frames = options->done_frames,

@@ -267,7 +267,8 @@ class Propagate(Test):
 
     def test_other_commands_take_the_clip(self):
         self.celdepth(*self.words())
-        self.celdepth('shade', '--clip', 'clip', '--shaded', 'lit.png', '--quiet')
+        self.assertEqual(self.celdepth('shade', '--clip', 'clip', '--shaded', 'lit.png'), '')
+        self.assertIn('Frame 0, 1 of 7.', self.celdepth('shade', '--clip', 'clip', '--shaded', 'lit.png', '--progress'))
         self.celdepth('enhance', '--clip', 'clip', '--enhanced', 'e_##.png', '--quiet')
         self.celdepth('stereo', '--clip', 'clip', '--joined', 's.png', '--quiet')
         self.celdepth('layers', '--clip', 'clip', '--output', 'l.ora', '--quiet')
