@@ -119,11 +119,12 @@ cli_check_relations (CeldStatus status, const CliOptions *options, const CeldTex
   return cli_check_text (status, name, &place);
 }
 
+/* A pipe can be read once only, by the run itself. */
 static char *
 text_of_file (const char *path)
 {
   gsize length;
-  char *text = path ? cli_file_read (path, CLI_MOST_TEXT, true, &length) : NULL;
+  char *text = path && !cli_is_device (path) ? cli_file_read (path, CLI_MOST_TEXT, true, &length) : NULL;
 
   return text ? text : g_strdup ("");
 }

@@ -168,6 +168,11 @@ class Usage(Test):
 
         with open(self.path('r.txt'), 'w', encoding='utf-8') as file:
             file.write('70,45 > 20,20\n#123456 > 1,1\n')
+        os.mkfifo(self.path('pipe'))
+        writer = subprocess.Popen(['sh', '-c', 'echo "20,20 > 1,1; 70,45 > 20,20" > pipe'], cwd=self.folder)
+        self.popup('--relations-file', 'pipe', '--levels', 'piped.npy')
+        self.assertEqual(writer.wait(10), 0)
+        np.testing.assert_array_equal(np.load(self.path('piped.npy')), np.load(self.path('one.npy')))
         said = self.popup('--relations', '20,20 > 999,1', '--relations-file', 'r.txt', '--levels', 'both.npy')
         self.assertIn('celdepth: --relations: The relation in line 1, column 1 names a point outside', said)
         self.assertIn('celdepth: r.txt: The relation in line 2, column 1 names a colour', said)
