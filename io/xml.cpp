@@ -92,6 +92,7 @@ parse_xml (const std::string &text, const std::string &file)
   g_clear_error (&error);
   g_markup_parse_context_free (context);
   if (!good)
-    throw IoFailure ("its " + file + " is damaged" + (ours ? " (" + why + ")." : ", in line " + std::to_string (line) + "."));
+    throw IoFailure ("its " + file + " is damaged" +
+                     (ours ? " (" + why + ")." : ", in line " + std::to_string (line) + "."));
   return std::move (open[0].children.at (0));
 }

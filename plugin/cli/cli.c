@@ -81,7 +81,7 @@ run_with_files (const CliCommand *command, const CliOptions *options)
   return options->clip ? cli_clip_run (command, options) : command->run (options);
 }
 
-/* The same, with results that appear together.  Frames of a clip appear one by one, and what --watch makes each time. */
+/* The same, with results that appear together: of the run, or else of each frame of a clip, or each time. */
 static int
 run_whole (const CliCommand *command, CliOptions *options)
 {

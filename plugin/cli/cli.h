@@ -293,7 +293,8 @@ void cli_warn_if_flat          (const char *path, const CeldPlane *levels);  /* 
 
 #define CLI_MOST_TEXT ((gsize) 64 << 20) /* bytes of a text file (chosen) */
 
-/* All bytes of a file, at most so many, with a NUL behind them; NULL with a message, unless `quiet`.  Free with g_free. */
+/* All bytes of a file, at most so many, with a NUL behind them; NULL with a message, unless `quiet`.  Free with
+ * g_free. */
 char *cli_file_read (const char *path, gsize most, bool quiet, gsize *length);
 /* Why a file or folder cannot be read, mostly in words of the system. */
 const char *cli_file_problem (const char *path);

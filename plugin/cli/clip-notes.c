@@ -39,7 +39,7 @@ cli_say_blank (const CliMotion *motion)
     if (motion->frames.frame[i].blank)
       g_string_append_printf (numbers, "%s%d", n++ ? ", " : "", motion->frames.frame[i].number);
   if (n)
-    cli_say ("Frame%s %s: there are no lines, so that all is background, and so is what comes after it from the same key. "
-             "Give the next drawing scribbles and a --key of its own.", n > 1 ? "s" : "", numbers->str);
+    cli_say ("Frame%s %s: there are no lines, so that all is background, and so is what comes after it from the same "
+             "key. Give the next drawing scribbles and a --key of its own.", n > 1 ? "s" : "", numbers->str);
   g_string_free (numbers, TRUE);
 }

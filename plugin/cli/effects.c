@@ -31,7 +31,8 @@ cli_effects_check (const CliOptions *o)
   return true;
 }
 
-/* Other settings may be given in vain: front ends keep theirs while the artist tries one model of light after another. */
+/* Other settings may be given in vain: front ends keep theirs while the artist tries one model of light after
+ * another. */
 bool
 cli_setting_effects_check (const CliOptions *o)
 {
@@ -39,7 +40,8 @@ cli_setting_effects_check (const CliOptions *o)
 
   const struct { const char *option; bool effect; const char *needed; } rows[] = {
     { "near-level", fixed, "--encoding fixed" }, { "far-level", fixed, "--encoding fixed" },
-    { "light-x", point, "--light point" }, { "light-y", point, "--light point" }, { "light-height", point, "--light point" },
+    { "light-x", point, "--light point" }, { "light-y", point, "--light point" },
+    { "light-height", point, "--light point" },
   };
 
   for (size_t i = 0; i < G_N_ELEMENTS (rows); i++)

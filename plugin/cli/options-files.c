@@ -105,7 +105,8 @@ static const FileOption files[] = {
   { "sequence", CLI_POPUP | CLI_STEREO, 0, FRAMES, MEMBER (sequence), "OUT",
     "write all --views in a file or folder: .mpo, .gif, or a folder of PNG files" },
   { "wiggle", CLI_POPUP, 0, FRAMES, MEMBER (wiggle), "OUT",
-    "write an animation of a camera that moves: .gif, .mpo, or a folder of PNG files; for it --disparity is 0.05 if not given" },
+    "write an animation of a camera that moves: .gif, .mpo, or a folder of PNG files; for it --disparity is 0.05 if not "
+    "given" },
   { "output", CLI_WIGGLE, CLI_WIGGLE, FRAMES, MEMBER (wiggle), "OUT",
     "write the animation: .gif, .mpo, or a folder of PNG files" },
   { "colours", COLOURED, 0, INPUT, MEMBER (colours), "PICTURE",

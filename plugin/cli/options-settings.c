@@ -177,7 +177,7 @@ allowed (const CeldSettingInfo *row)
       g_string_append (words, "a colour such as #ff8000");
       break;
     default:
-      g_string_append_printf (words, "%s between %s and %s", row->type == CELD_SETTING_INTEGER ? "a whole number" : "a number",
+      g_string_append_printf (words, "a %snumber between %s and %s", row->type == CELD_SETTING_INTEGER ? "whole " : "",
                               least, most);
     }
   g_free (least);

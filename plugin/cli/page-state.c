@@ -75,7 +75,7 @@ take_sizes (const CliPage *page, GArray *sizes)
     }
 }
 
-/* Whether all results are there, as long as they were: a disk that was full, or a crash of the machine, cuts files off. */
+/* Whether all results are there, as long as they were: a full disk, or a crash of the machine, cuts files off. */
 static bool
 are_whole (const CliPage *page, JsonObject *state)
 {

@@ -31,8 +31,8 @@ finish_mesh (const CliOptions *options, CliRun *run, CeldStatus status, double e
   if (status == CELD_BAD_SIZE) /* of layers that agree: a part has no room in the texture */
     {
       cli_run_stage (run, NULL);
-      return cli_error ("A part is too large for a mesh: its texture has up to %d pixels a side, some of them around the "
-                        "part. Make the drawing smaller.", CELD_MAX_SIDE);
+      return cli_error ("A part is too large for a mesh: its texture has up to %d pixels a side, some of them around "
+                        "the part. Make the drawing smaller.", CELD_MAX_SIDE);
     }
   if (!cli_run_finish (run, status))
     return false;
