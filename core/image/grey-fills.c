@@ -1,4 +1,4 @@
-/* Whether a drawing has flat fills in greys, as cartoons without colours have: a fiftieth of it lies in flat blocks of
+/* Whether a drawing has flat fills in greys or pale colours: in some channel a fiftieth of it lies in flat blocks of
  * tones that are neither its paper's, the commonest one, nor those of what is darkest and lightest; or an eighth of what
  * is no paper does, if the drawing is small on its page.
  *
@@ -22,16 +22,16 @@
 #define LEAST_DRAWN 8    /* ... or one in so many of the blocks that are no paper, ... */
 #define FEW_BLOCKS  8    /* ... if there are so many; chosen */
 
-/* Counts values of the middle channel in a block, and its tone if it is flat. */
+/* Counts values of a channel in a block, and its tone if it is flat. */
 static void
-count_block (const CeldMask *green, int left, int top, uint32_t of[256], uint32_t flat[256])
+count_block (const CeldMask *channel, int left, int top, uint32_t of[256], uint32_t flat[256])
 {
   int least = 255, most = 0;
 
   for (int y = top; y < top + GREY_BLOCK; y++)
     for (int x = left; x < left + GREY_BLOCK; x++)
       {
-        int v = CELD_AT (green, x, y);
+        int v = CELD_AT (channel, x, y);
 
         of[v]++;
         least = v < least ? v : least;
@@ -64,15 +64,15 @@ extreme (const uint32_t of[256], uint32_t all, bool lightest)
   return lightest ? 255 - i : i;
 }
 
-bool
-celd_has_grey_fills (const CeldMask channel[3])
+static bool
+has_fills (const CeldMask *channel)
 {
   uint32_t of[256] = { 0 }, flat[256] = { 0 }, blocks = 0, fills = 0;
   int      paper = 0, darkest, lightest;
 
   for (int y = 0; y + GREY_BLOCK <= channel->height; y += GREY_BLOCK)
     for (int x = 0; x + GREY_BLOCK <= channel->width; x += GREY_BLOCK, blocks++)
-      count_block (&channel[1], x, y, of, flat);
+      count_block (channel, x, y, of, flat);
   for (int i = 1; i < 256; i++)
     paper = flat[i] > flat[paper] ? i : paper;
   darkest  = extreme (of, blocks * GREY_BLOCK * GREY_BLOCK, false);
@@ -83,4 +83,10 @@ celd_has_grey_fills (const CeldMask channel[3])
       fills += flat[i];
   return LEAST_FILLS * fills > blocks ||
          (fills >= FEW_BLOCKS && LEAST_DRAWN * fills > blocks - blocks_near (flat, paper, 0, FLAT));
+}
+
+bool
+celd_has_grey_fills (const CeldMask channel[3])
+{
+  return has_fills (&channel[0]) || has_fills (&channel[1]) || has_fills (&channel[2]);
 }

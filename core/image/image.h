@@ -215,7 +215,7 @@ void celd_line_strengths (const uint8_t *contrast, int faintest, size_t n, uint8
 /* coloured.c: whether red, green and blue of an opaque drawing have fills of several hues. */
 bool celd_is_coloured (const CeldMask channel[3]);
 
-/* grey-fills.c: whether they have flat fills of several greys, beside paper and what is darkest and lightest. */
+/* grey-fills.c: whether they have flat fills in greys or pale colours, beside paper and what is darkest and lightest. */
 bool celd_has_grey_fills (const CeldMask channel[3]);
 
 /* sprite-lines.c: if a picture is pixel art in a few exact colours, with lines, sets `lines` to 255 at them and to 0

@@ -597,22 +597,27 @@ grey_fills_are_paper (void)
     }
 }
 
-/* A small drawing in pale colours on a large page. */
+/* A small drawing in pale colours on a large page; the second is pale in red and blue only. */
 static void
 few_fills_are_paper (void)
 {
-  const Tone pale = { 0.85f, 0.88f, 1 }, black = { 0.05f, 0.05f, 0.05f };
-  int        dark = 0;
+  static const Tone pale[2] = { { 0.85f, 0.88f, 1 }, { 0.85f, 0.96f, 0.8f } };
+  const Tone        black = { 0.05f, 0.05f, 0.05f };
 
-  for (int y = 0; y < SIDE; y++)
-    for (int x = 0; x < SIDE; x++)
-      put (x, y, mixed (inside (x, y, 100, 100, 20) ? pale : white, black, ring (x, y, 100, 100, 20)));
-  CHECK (find (CELD_INK_AUTO, NULL) == CELD_OK);
-  for (int y = 0; y < SIDE; y++)
-    for (int x = 0; x < SIDE; x++)
-      dark += inside (x, y, 100, 100, 15) && luma_of[y * SIDE + x] < 0.95f;
-  NEAR (dark, 0, 0);
-  CHECK (luma_of[100 * SIDE + 80] < 0.1f);
+  for (int turn = 0; turn < 2; turn++)
+    {
+      int dark = 0;
+
+      for (int y = 0; y < SIDE; y++)
+        for (int x = 0; x < SIDE; x++)
+          put (x, y, mixed (inside (x, y, 100, 100, 20) ? pale[turn] : white, black, ring (x, y, 100, 100, 20)));
+      CHECK (find (CELD_INK_AUTO, NULL) == CELD_OK);
+      for (int y = 0; y < SIDE; y++)
+        for (int x = 0; x < SIDE; x++)
+          dark += inside (x, y, 100, 100, 15) && luma_of[y * SIDE + x] < 0.95f;
+      NEAR (dark, 0, 0);
+      CHECK (luma_of[100 * SIDE + 80] < 0.1f);
+    }
 }
 
 /* Grey fills are found when the artist asks for it, and nothing is found where there is nothing. */
