@@ -12,6 +12,7 @@
 #include "image/image.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 #define GREY_BLOCK  8    /* pixels, a side; chosen */
 #define FLAT        2    /* of 255: what a value may differ within a flat block, from rounding; chosen */
@@ -88,5 +89,12 @@ has_fills (const CeldMask *channel)
 bool
 celd_has_grey_fills (const CeldMask channel[3])
 {
-  return has_fills (&channel[0]) || has_fills (&channel[1]) || has_fills (&channel[2]);
+  size_t n = (size_t) channel->width * (size_t) channel->height;
+
+  if (has_fills (&channel[1]))
+    return true;
+  for (int c = 0; c < 3; c += 2)
+    if (memcmp (channel[c].data, channel[1].data, n) && has_fills (&channel[c])) /* in greys they are the same */
+      return true;
+  return false;
 }
