@@ -139,6 +139,18 @@ celd_colour_distance (const int *a, const int *b)
   return d0 * d0 + d1 * d1 + d2 * d2;
 }
 
+/* The same from the line through paper and paint, on which their mixtures lie; *ahead: paint is on that side of paper. */
+static inline double
+celd_distance_to_mixtures (const int *paper, const int *paint, const int *colour, bool *ahead)
+{
+  double along = 0;
+
+  for (int i = 0; i < 3; i++)
+    along += (colour[i] - paper[i]) * (paint[i] - paper[i]);
+  *ahead = along > 0;
+  return celd_colour_distance (colour, paper) - along * along / celd_colour_distance (paint, paper);
+}
+
 /* faint-strokes.c: appends CELD_PROBLEM_STROKE_FAINT for each stroke of a layer with alpha that has some, but is nowhere
  * as opaque as `least`, from which on paint is read. */
 CeldStatus celd_faint_strokes_find (const CeldPaint *layer, int least, CeldProblems *problems);

@@ -132,13 +132,11 @@ static bool
 may_be_side (const CeldScribbleLayer *r, uint32_t k, uint32_t j)
 {
   const int *paper = r->colour[r->paper].channel, *c = r->cluster[k].channel, *full = r->cluster[j].channel;
-  double     length2 = celd_colour_distance (full, paper), error2 = celd_colour_distance (c, paper), along = 0;
+  bool       ahead = false;
 
-  if (!k || !j || error2 >= length2 || celd_colour_distance (c, full) > RIM_DISTANCE * RIM_DISTANCE)
-    return false;
-  for (int i = 0; i < 3; i++)
-    along += (c[i] - paper[i]) * (full[i] - paper[i]);
-  return along > 0 && error2 - along * along / length2 <= SIDE_ERROR * SIDE_ERROR;
+  return k && j && celd_colour_distance (c, paper) < celd_colour_distance (full, paper) &&
+         celd_colour_distance (c, full) <= RIM_DISTANCE * RIM_DISTANCE &&
+         celd_distance_to_mixtures (paper, full, c, &ahead) <= SIDE_ERROR * SIDE_ERROR && ahead;
 }
 
 /* What a cluster may be a part of: the candidate of a majority vote, its votes, and how often the two touch. */

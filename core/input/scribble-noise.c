@@ -28,17 +28,6 @@
 
 /* ------------------------------------------------------------------ noise of strokes */
 
-/* The squared distance of a colour from the mixtures of paper and paint. */
-static double
-off_mixtures2 (const int *paper, const int *paint, const int *colour)
-{
-  double along = 0;
-
-  for (int i = 0; i < 3; i++)
-    along += (colour[i] - paper[i]) * (paint[i] - paper[i]);
-  return celd_colour_distance (colour, paper) - along * along / celd_colour_distance (paint, paper);
-}
-
 /* How far a pixel is from the mean of its left and right neighbours. */
 static double
 distance_from_mean (const CeldScribbleLayer *r, const uint32_t *id)
@@ -59,6 +48,7 @@ noise_off_mixtures (const CeldScribbleLayer *r, const uint32_t *id)
 {
   const int *paper = r->colour[r->paper].channel, *strongest = paper;
   double     most = 0, off2 = 0, grey = 0, sine;
+  bool       ahead;
 
   for (int k = -1; k <= 1; k++)
     if (celd_colour_distance (r->colour[id[k]].channel, paper) > most)
@@ -70,7 +60,7 @@ noise_off_mixtures (const CeldScribbleLayer *r, const uint32_t *id)
     grey += strongest[i] - paper[i];
   sine = sqrt (fmax (1 - grey * grey / (3 * most), 0));
   for (int k = -1; k <= 1; k++)
-    off2 = fmax (off2, off_mixtures2 (paper, strongest, r->colour[id[k]].channel));
+    off2 = fmax (off2, celd_distance_to_mixtures (paper, strongest, r->colour[id[k]].channel, &ahead));
   return sine > LEAST_SINE ? sqrt (off2) / sine : MOST_NOISE;
 }
 
@@ -150,6 +140,7 @@ has_odd_tints (const CeldScribbleLayer *r)
 {
   const int *paper = r->colour[r->paper].channel;
   size_t     tints = 0, odd = 0;
+  bool       ahead;
 
   for (int y = 0; y < r->height && r->paper; y++)
     for (int x = 0; x < r->width; x++)
@@ -163,7 +154,7 @@ has_odd_tints (const CeldScribbleLayer *r)
         if (celd_colour_distance (paint, paper) < TINTING_PAINT * TINTING_PAINT)
           continue;
         tints++;
-        odd += off_mixtures2 (paper, paint, c) >= TINT_OFF * TINT_OFF;
+        odd += celd_distance_to_mixtures (paper, paint, c, &ahead) >= TINT_OFF * TINT_OFF;
       }
   return odd >= LEAST_TINTS && TINTS_SHARE * odd >= tints;
 }
