@@ -63,7 +63,8 @@ int celd_ink_rows_apart (int width, int height);
 float celd_ink_noise (const CeldPlane *contrast, int step);
 
 /* The strength of compression artefacts: the ripple that one of ten paper pixels near dark ink exceeds; 0 in a clean
- * picture.  `around` holds the largest contrast near each pixel, 0 .. 255, `dark` the contrast of dark strokes. */
+ * picture, or if there are too few such pixels.  `around` holds the largest contrast near each pixel, 0 .. 255, `dark`
+ * the contrast of dark strokes. */
 float celd_ink_echo (const CeldPlane *contrast, const CeldMask *around, float dark);
 
 /* One pass of the binomial filter (1 2 1)/4 in both directions, in place; `spare`, of the same size, is overwritten. */

@@ -7,6 +7,7 @@
 #include <math.h>
 
 #define ENOUGH_NOISE ((size_t) 1 << 17) /* pixels: more do not change a quantile by which noise is known; chosen */
+#define LEAST_ECHO   256 /* pixels beside dark lines: by fewer, a few hairlines are taken for ripple; chosen */
 
 /* Odd, because compressed pictures repeat themselves every 8 rows. */
 int
@@ -62,7 +63,7 @@ celd_ink_echo (const CeldPlane *contrast, const CeldMask *around, float dark)
       }
   while (bin > 0 && 10 * (above += of[bin]) < all)
     bin--;
-  return all ? (float) bin / (CELD_INK_BINS - 1) : 0;
+  return all >= LEAST_ECHO ? (float) bin / (CELD_INK_BINS - 1) : 0;
 }
 
 void
