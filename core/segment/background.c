@@ -17,6 +17,7 @@
 #include "segment/task.h"
 
 #define MAIN_SHARE 4 /* 1 / this: a quarter of the frame is the main part of it (chosen) */
+#define FAIR_PART  8 /* 1 / this of a stroke is not where it was led by chance (chosen) */
 
 typedef struct
 {
@@ -88,19 +89,35 @@ find_scattered (const CeldStrokes *strokes, const size_t *along, size_t *scatter
       scattered[strokes->overlap[i].stroke] = 0;
 }
 
+/* crosses[k]: whether stroke k lies on ink, too. */
+static void
+find_crossing (const CeldStrokes *strokes, bool *crosses)
+{
+  for (size_t i = 0; i < strokes->n_pieces; i++)
+    {
+      const CeldStrokePiece *piece = &strokes->piece[i];
+
+      crosses[piece->stroke] |= piece->paper < (uint32_t) (piece->end - piece->x);
+    }
+}
+
 /* owner[k] becomes the label with most paint in part k, 0 without any or, if `fair`, with less than a fair share of it.
- * Soft strokes count only where they are at home, or along the frame if they are scattered there. along[k]: frame
- * pixels in part k. */
+ * Soft strokes count only where they are at home, or along the frame if they are scattered or led there.  along[k]:
+ * frame pixels in part k. */
 static CeldStatus
 find_owners (const CeldStrokes *strokes, bool all_count, bool fair, const size_t *along, bool *across,
              uint32_t *owner)
 {
-  size_t *scattered = celd_alloc0 (strokes->n_strokes, sizeof *scattered);
+  size_t    *scattered = celd_alloc0 (strokes->n_strokes, sizeof *scattered);
+  bool      *crosses = celd_alloc0 (strokes->n_strokes, sizeof *crosses);
+  CeldStatus status = scattered && crosses ? CELD_OK : CELD_NO_MEMORY;
 
-  if (!scattered)
-    return CELD_NO_MEMORY;
-  find_scattered (strokes, along, scattered);
-  for (size_t i = 0; i < strokes->n;)
+  if (status == CELD_OK)
+    {
+      find_scattered (strokes, along, scattered);
+      find_crossing (strokes, crosses);
+    }
+  for (size_t i = 0; i < strokes->n && status == CELD_OK;)
     {
       uint32_t part = strokes->overlap[i].part;
       size_t   most = 0, all = 0, labels = 0;
@@ -116,10 +133,11 @@ find_owners (const CeldStrokes *strokes, bool all_count, bool fair, const size_t
               const CeldStrokeOverlap *overlap = &strokes->overlap[i];
               size_t                   total = strokes->total[overlap->stroke];
               bool                     runs_on = along[part] && 2 * scattered[overlap->stroke] >= total;
+              size_t                   share = along[part] && !crosses[overlap->stroke] ? FAIR_PART : 2;
 
               all += overlap->pixels;
               across[label] |= runs_on;
-              paint += all_count || runs_on || 2 * overlap->pixels >= total ? overlap->pixels : 0;
+              paint += all_count || runs_on || share * overlap->pixels >= total ? overlap->pixels : 0;
             }
           if (paint > most)
             {
@@ -131,7 +149,8 @@ find_owners (const CeldStrokes *strokes, bool all_count, bool fair, const size_t
         owner[part] = 0;
     }
   celd_free (scattered);
-  return CELD_OK;
+  celd_free (crosses);
+  return status;
 }
 
 /* Finds the owner of each part of the drawing. */

@@ -168,6 +168,17 @@ a_stroke_over_hatching_holds_the_frame (void)
   check_background (paper, painted, 1, wanted, 1, 1);
 }
 
+/* The page is seen between two figures; a stroke that was led out there onto the page round them, without running over a
+ * line, holds the frame, too. */
+static void
+a_stroke_led_out_between_lines_holds_the_frame (void)
+{
+  static const char *const paper[] = { "1111111", "11#####", "1122222", "11#####", "1111111", NULL };
+  static const char *const painted[] = { ".......", ".......", ".AAAAA.", ".......", ".......", NULL };
+
+  check_background (paper, painted, 1, painted, 1, 1);
+}
+
 /* A small enclosure behind a gap goes to the owner of its component, and gets no seeds. */
 static void
 behind_a_gap_the_component_counts (void)
@@ -250,26 +261,36 @@ a_label_in_front_of_another_is_no_background (void)
 /* ------------------------------------------------------------------ the same by pixels */
 
 /* What the slow version knows of each pixel. */
-typedef struct { CeldLabels painted, enclosure; uint32_t stroke[W * H], component[W * H]; bool all_count; } Pixels;
+typedef struct
+{
+  CeldLabels painted, enclosure;
+  uint32_t   stroke[W * H], component[W * H];
+  bool       ink[W * H], all_count;
+} Pixels;
 
 /* Does the stroke of pixel p count in its part?  *across: because it runs on along the frame. */
 static bool
 slow_at_home (const Pixels *s, const uint32_t part[W * H], const bool along[5], int p, bool *across)
 {
   int  in[5] = { 0 }, total = 0, in_frame = 0;
-  bool home = false;
+  bool home = false, crosses = false;
 
   for (int q = 0; q < W * H; q++)
-    if (s->stroke[q] == s->stroke[p] && s->enclosure.data[q])
-      {
-        total++;
-        in[part[q]]++;
-        in_frame += along[part[q]];
-      }
+    {
+      bool same = s->stroke[q] == s->stroke[p];
+
+      crosses |= same && s->ink[q];
+      if (same && s->enclosure.data[q])
+        {
+          total++;
+          in[part[q]]++;
+          in_frame += along[part[q]];
+        }
+    }
   for (int k = 1; k < 5; k++)
     home |= 2 * in[k] >= total;
   *across = !home && along[part[p]] && 2 * in_frame >= total;
-  return *across || 2 * in[part[p]] >= total;
+  return *across || (along[part[p]] && !crosses ? 8 : 2) * in[part[p]] >= total;
 }
 
 static uint32_t
@@ -382,7 +403,10 @@ seeds_are_those_of_the_pixels (void)
       if (joined) /* an enclosure behind a gap */
         s.basins.component[joined] = 1;
       for (int p = 0; p < W * H; p++)
-        pixels.component[p] = pixels.enclosure.data[p] == joined + 1 ? 1 : pixels.enclosure.data[p];
+        {
+          pixels.component[p] = pixels.enclosure.data[p] == joined + 1 ? 1 : pixels.enclosure.data[p];
+          pixels.ink[p] = !celd_is_paper (s.ink.data[p]);
+        }
       if (round % 2) /* as in a segmentation: what is left of spills counts, and strokes that they have cut in two */
         {
           CHECK (celd_spills_remove (NULL, &s.task) == CELD_OK);
@@ -419,6 +443,7 @@ main (void)
   RUN (a_stroke_that_runs_out_does_not_hold_the_frame);
   RUN (a_label_in_front_of_another_is_no_background);
   RUN (a_stroke_over_hatching_holds_the_frame);
+  RUN (a_stroke_led_out_between_lines_holds_the_frame);
   RUN (behind_a_gap_the_component_counts);
   RUN (flecks_in_solid_ink_are_left_alone);
   RUN (an_obeyed_stroke_under_a_bridge_stays);
