@@ -57,6 +57,7 @@ prepare (GeglOperation *operation)
 typedef struct
 {
   CeldPlane  ink, levels;
+  CeldPaint  colours;              /* that the drawing was painted in */
   CeldLabels regions, corrections; /* data NULL: not there */
 } Inputs;
 
@@ -144,7 +145,7 @@ render_layer (CeldOp *op, const Inputs *in)
   gboolean            good;
 
   good = celd_op_read_colours (op, "aux", &art) &&
-         celd_op_try (op, celd_layers_of_levels (&in->ink, &in->levels, regions, corrections, &art,
+         celd_op_try (op, celd_layers_of_levels (&in->ink, &in->colours, &in->levels, regions, corrections, &art,
                                                  CELD_STORE_FLOAT, s, &op->host, &layers)) &&
          write_layer (op, layers, (size_t) op->own.layer);
   celd_layers_free (layers);
@@ -179,8 +180,9 @@ render_matte (CeldOp *op, Inputs *in)
   CeldColours matte;
 
   if (!celd_op_new_plane (op, &coverage) || !celd_op_new_colours (op, &matte) ||
-      !celd_op_try (op, celd_matte_of_levels (&in->ink, &in->levels, owner, labels_or_null (&in->corrections),
-                                              op->settings.expansion, &op->host, &in->levels, owner, &coverage)) ||
+      !celd_op_try (op, celd_matte_of_levels (&in->ink, &in->colours, &in->levels, owner,
+                                              labels_or_null (&in->corrections), op->settings.expansion, &op->host,
+                                              &in->levels, owner, &coverage)) ||
       !colour_owners (op, owner, &in->levels, &matte))
     return FALSE;
   for (gsize p = 0; p < (gsize) coverage.width * (gsize) coverage.height; p++)
@@ -193,7 +195,7 @@ render_matte (CeldOp *op, Inputs *in)
 static gboolean
 render_levels (CeldOp *op, Inputs *in)
 {
-  return celd_op_try (op, celd_expand_levels (&in->ink, &in->levels, labels_or_null (&in->regions),
+  return celd_op_try (op, celd_expand_levels (&in->ink, &in->colours, &in->levels, labels_or_null (&in->regions),
                                               labels_or_null (&in->corrections), op->settings.expansion, &op->host,
                                               &in->levels)) &&
          celd_op_write (op, in->levels.data);
@@ -204,8 +206,9 @@ render (CeldOp *op)
 {
   Inputs in = { 0 };
 
-  if (!celd_op_read_ink (op, "aux", &in.ink) || !celd_op_read_plane (op, "input", &in.levels) ||
-      !read_regions (op, &in.regions) || !read_corrections (op, &in.regions, &in.corrections))
+  if (!celd_op_read_ink (op, "aux", &in.ink) || !celd_op_read_painted (op, "aux", &in.colours) ||
+      !celd_op_read_plane (op, "input", &in.levels) || !read_regions (op, &in.regions) ||
+      !read_corrections (op, &in.regions, &in.corrections))
     return FALSE;
   switch ((CeldExpandResult) op->own.result)
     {

@@ -144,7 +144,7 @@ write_levels (CeldOp *op, const Frame *before, const CeldPlane *ink, const CeldL
     return FALSE;
   for (gsize i = 0; i < (gsize) labels->width * (gsize) labels->height; i++)
     levels.data[i] = before->value[labels->data[i] - 1];
-  return celd_op_try (op, celd_expand_levels (ink, &levels, labels, NULL, s->expansion, &op->quiet, &levels)) &&
+  return celd_op_try (op, celd_expand_levels (ink, NULL, &levels, labels, NULL, s->expansion, &op->quiet, &levels)) &&
          (op->own.result == CELD_PROPAGATED_LEVELS ||
           celd_op_try (op, celd_smooth (ink, NULL, &levels, NULL, s, &op->quiet, &levels, NULL))) &&
          celd_op_write (op, levels.data);

@@ -112,10 +112,20 @@ write_result (CeldOp *op, const char *drawing)
   return FALSE;
 }
 
+static gboolean
+set_colours (CeldOp *op, const char *drawing)
+{
+  CeldPaint painted;
+
+  return celd_op_read_painted (op, drawing, &painted) &&
+         celd_op_try (op, celd_session_set_colours (op->operation->session, &painted));
+}
+
 gboolean
 celd_popup_render (CeldOp *op, const CeldPopupPads *pads)
 {
   return celd_op_set_session (op, pads->drawing, pads->scribbles, pads->arrows) &&
+         set_colours (op, pads->drawing) &&
          celd_op_set_layer (op, pads->contours, celd_session_set_contours) &&
          celd_op_set_layer (op, pads->hidden, celd_session_set_hidden) &&
          (!pads->corrections || celd_op_set_layer (op, pads->corrections, celd_session_set_corrections)) &&

@@ -185,6 +185,7 @@ gpointer celd_op_alloc (CeldOp *op, gsize size);
 gboolean celd_op_read_plane   (CeldOp *op, const char *pad, CeldPlane *plane);      /* linear values */
 gboolean celd_op_read_paint   (CeldOp *op, const char *pad, CeldPaint *paint);      /* R'G'B'A, sRGB */
 gboolean celd_op_read_drawing (CeldOp *op, const char *pad, CeldDrawing *drawing);
+gboolean celd_op_read_painted (CeldOp *op, const char *pad, CeldPaint *paint);      /* a drawing's colours, as paint */
 gboolean celd_op_read_colours (CeldOp *op, const char *pad, CeldColours *colours);  /* linear */
 gboolean celd_op_read_ink     (CeldOp *op, const char *pad, CeldPlane *ink);        /* of a drawing, no photograph */
 gboolean celd_op_read_sample  (CeldOp *op, const char *pad, CeldColours *colours);  /* linear, its own size */

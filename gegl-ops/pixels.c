@@ -117,6 +117,15 @@ celd_op_read_drawing (CeldOp *op, const char *pad, CeldDrawing *drawing)
 }
 
 gboolean
+celd_op_read_painted (CeldOp *op, const char *pad, CeldPaint *paint)
+{
+  if (!celd_op_new_paint (op, paint))
+    return FALSE;
+  celd_buffer_read_paint (celd_op_buffer (op, pad), &op->picture, paint);
+  return TRUE;
+}
+
+gboolean
 celd_op_read_ink (CeldOp *op, const char *pad, CeldPlane *ink)
 {
   CeldDrawing drawing;

@@ -100,6 +100,23 @@ check_input (const CeldPipelineInput *input, GError **error)
 }
 
 static CeldStatus
+set_layer (CeldPipeline *p, const CeldPipelineLayer *layer,
+           CeldStatus (*set) (CeldSession *session, const CeldPaint *paint))
+{
+  GeglRectangle rect = celd_pipeline_rectangle (layer, p->width, p->height);
+  CeldPaint     paint = celd_pipeline_new_paint (p);
+  CeldStatus    status = CELD_NO_MEMORY;
+
+  if (paint.data)
+    {
+      celd_buffer_read_paint (layer->buffer, &rect, &paint);
+      status = set (p->session, &paint);
+    }
+  g_free (paint.data);
+  return status;
+}
+
+static CeldStatus
 set_drawing (CeldPipeline *p, const CeldPipelineLayer *layer)
 {
   GeglRectangle rect = celd_pipeline_rectangle (layer, p->width, p->height);
@@ -119,25 +136,10 @@ set_drawing (CeldPipeline *p, const CeldPipelineLayer *layer)
       celd_buffer_read_colours (layer->buffer, &rect, &p->art);
       status = celd_session_set_drawing (p->session, &drawing);
     }
+  if (status == CELD_OK)
+    status = set_layer (p, layer, celd_session_set_colours);
   g_free (drawing.luma.data);
   g_free (drawing.alpha.data);
-  return status;
-}
-
-static CeldStatus
-set_layer (CeldPipeline *p, const CeldPipelineLayer *layer,
-           CeldStatus (*set) (CeldSession *session, const CeldPaint *paint))
-{
-  GeglRectangle rect = celd_pipeline_rectangle (layer, p->width, p->height);
-  CeldPaint     paint = celd_pipeline_new_paint (p);
-  CeldStatus    status = CELD_NO_MEMORY;
-
-  if (paint.data)
-    {
-      celd_buffer_read_paint (layer->buffer, &rect, &paint);
-      status = set (p->session, &paint);
-    }
-  g_free (paint.data);
   return status;
 }
 

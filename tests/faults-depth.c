@@ -127,7 +127,7 @@ expand_levels_step (const CeldHost *host, Results *r)
 {
   CeldPlane ink = plane_of (&ink_pixels), levels = plane_of (&level_pixels), expanded = plane_of (r->pixels);
 
-  return celd_expand_levels (&ink, &levels, NULL, NULL, CELD_EXPANSION_OUTLINES, host, &expanded);
+  return celd_expand_levels (&ink, NULL, &levels, NULL, NULL, CELD_EXPANSION_OUTLINES, host, &expanded);
 }
 
 static CeldStatus
@@ -137,7 +137,7 @@ matte_step (const CeldHost *host, Results *r)
   CeldPlane    ink = plane_of (&ink_pixels), levels = plane_of (&level_pixels), share = plane_of (r->pixels);
   CeldLabels   regions = labels_of (&label_pixels);
 
-  return celd_matte_of_levels (&ink, &levels, &regions, &regions, CELD_EXPANSION_OUTLINES, host,
+  return celd_matte_of_levels (&ink, NULL, &levels, &regions, &regions, CELD_EXPANSION_OUTLINES, host,
                                &(CeldPlane) { W, H, W, level }, NULL, &share);
 }
 
@@ -151,7 +151,7 @@ own_step (const CeldHost *host, Results *r)
   CeldStatus     status = celd_ownership_new (W, H, &own);
 
   if (status == CELD_OK)
-    status = celd_own (&ink, &labels, level, 8, NULL, CELD_EXPANSION_OUTLINES, host, &own);
+    status = celd_own (&ink, NULL, &labels, level, 8, NULL, CELD_EXPANSION_OUTLINES, host, &own);
   for (int p = 0; status == CELD_OK && p < W * H; p++)
     owner.data[p] = own.owner.data[p];
   celd_ownership_clear (&own);
@@ -167,7 +167,7 @@ owners_step (const CeldHost *host, Results *r)
   CeldPlane          ink = plane_of (&ink_pixels);
   CeldLabels         labels = labels_of (&label_pixels), all = { 0 };
   uint32_t           level[8] = { 0, 1, 2, 3, 4, 5, 6, 7 };
-  CeldOwnershipInput input = { &ink, &labels, NULL, level, 8 };
+  CeldOwnershipInput input = { .ink = &ink, .labels = &labels, .level = level, .n = 8 };
   CeldOwnershipCache kept = { 0 };
   CeldOwnership      own = { 0 };
   CeldRect           changed;

@@ -190,7 +190,7 @@ deform_step (const CeldHost *host, Results *r)
       art[i]  = i % 4 == 3 ? 1 : ink_pixels.plane[i / 4];
       dots[i] = i % 4 == 3 && i / 4 % W < 8 && i / 4 / W < 8 ? 255 : 0;
     }
-  status = celd_layers_of_levels (&ink, &levels, NULL, NULL, &colours, CELD_STORE_FLOAT, &scene_settings, &first, &layers);
+  status = celd_layers_of_levels (&ink, NULL, &levels, NULL, NULL, &colours, CELD_STORE_FLOAT, &scene_settings, &first, &layers);
   if (status == CELD_OK)
     status = celd_puppet_new (layers, &ink, NULL, 1, NULL, &scene_settings, &second, &puppet);
   if (status == CELD_OK)
@@ -292,7 +292,7 @@ inbetween_step (const CeldHost *host, Results *r)
           for (int c = 0; c < 4; c++)
             art[s][4 * p + c] = c == 3 ? 1 : ink_pixels.plane[from];
         }
-      status = celd_layers_of_levels (&ink[s], &levels[s], NULL, NULL, &colours[s], CELD_STORE_FLOAT, &scene_settings,
+      status = celd_layers_of_levels (&ink[s], NULL, &levels[s], NULL, NULL, &colours[s], CELD_STORE_FLOAT, &scene_settings,
                                       &cutting, &layers[s]);
       if (status == CELD_OK && s)
         layers[s]->item[layers[s]->n - 1].label = 100;

@@ -71,7 +71,7 @@ layers_of_levels_step (const CeldHost *host, Results *r)
   CeldLabels   regions = labels_of (&label_pixels);
   CeldColours  colours = { W, H, W, art };
   CeldLayers  *layers = NULL;
-  CeldStatus   status = celd_layers_of_levels (&ink, &levels, &regions, &regions, &colours,
+  CeldStatus   status = celd_layers_of_levels (&ink, NULL, &levels, &regions, &regions, &colours,
                                                CELD_STORE_FLOAT, &scene_settings, host, &layers);
 
   if (status == CELD_OK)

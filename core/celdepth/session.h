@@ -31,6 +31,8 @@ CELD_API void         celd_session_drop_pictures (CeldSession *session);
 CELD_API CeldStatus celd_session_set_settings  (CeldSession *session, const CeldSettings *settings);
 CELD_API CeldStatus celd_session_set_drawing   (CeldSession *session, const CeldDrawing *drawing);
 /* Layers of the drawing's size, else CELD_BAD_SIZE; NULL removes one. */
+/* The colours that the drawing was painted in, for the ownership of its lines (celd_own). */
+CELD_API CeldStatus celd_session_set_colours   (CeldSession *session, const CeldPaint *colours);
 CELD_API CeldStatus celd_session_set_scribbles (CeldSession *session, const CeldPaint *scribbles);
 CELD_API CeldStatus celd_session_set_arrows    (CeldSession *session, const CeldPaint *arrows);
 CELD_API CeldStatus celd_session_set_contours  (CeldSession *session, const CeldPaint *contours);

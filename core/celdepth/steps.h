@@ -170,13 +170,14 @@ CELD_API CeldStatus celd_label_levels (const CeldLabels *labels, size_t n, const
                                        uint32_t *level);
 
 /* Contour ownership: paper belongs to its label, and ink to the region whose outline it is.  Labels are 1 .. n,
- * level[k - 1] is the level of label k.  `corrections` (may be NULL; 0 where there is none) are strokes over ink, each
+ * level[k - 1] is the level of label k.  `colours` (may be NULL) are those that the drawing was painted in: with outlines,
+ * a line that is a darker shade of a region's paper is that region's.  `corrections` (may be NULL; 0 where there is none) are strokes over ink, each
  * of which gives the piece of line below it to its label.  With CELD_EXPANSION_OUTLINES each region has an outline of
  * the width of its pen, over what lies behind it; CELD_EXPANSION_THICKNESS is celd_expand.  The caller provides the
  * pictures of `ownership`; its owner may alias `labels`. */
-CELD_API CeldStatus celd_own (const CeldPlane *ink, const CeldLabels *labels, const uint32_t *level, size_t n,
-                              const CeldLabels *corrections, CeldExpansion method, const CeldHost *host,
-                              CeldOwnership *ownership);
+CELD_API CeldStatus celd_own (const CeldPlane *ink, const CeldPaint *colours, const CeldLabels *labels,
+                              const uint32_t *level, size_t n, const CeldLabels *corrections, CeldExpansion method,
+                              const CeldHost *host, CeldOwnership *ownership);
 
 /* Reads corrections: opaque pixels get the label of their colour, the first if several have it; all others, and pixels
  * of a colour that no region has, get 0. */
@@ -191,16 +192,17 @@ CELD_API CeldStatus celd_hidden_read (const CeldPaint *paint, const CeldPalette 
  * level, or with `regions` (may be NULL) every region of one level, is a label.  `corrections` (may be NULL) are labels
  * of `regions`; in a region with several levels they mean the most frequent one.  CELD_BAD_VALUE for corrections
  * without regions.  `expanded` gets the level that covers more of each pixel, and may alias `levels`. */
-CELD_API CeldStatus celd_expand_levels (const CeldPlane *ink, const CeldPlane *levels, const CeldLabels *regions,
-                                        const CeldLabels *corrections, CeldExpansion method, const CeldHost *host,
-                                        CeldPlane *expanded);
+CELD_API CeldStatus celd_expand_levels (const CeldPlane *ink, const CeldPaint *colours, const CeldPlane *levels,
+                                        const CeldLabels *regions, const CeldLabels *corrections, CeldExpansion method,
+                                        const CeldHost *host, CeldPlane *expanded);
 
 /* As celd_expand_levels, with the result as a matte: of each pixel's owner its level, its region (`region` may be NULL;
  * 0 without regions) and its coverage of the pixel, (0,1].  `level` may alias `levels`, `region` may alias
  * `regions`. */
-CELD_API CeldStatus celd_matte_of_levels (const CeldPlane *ink, const CeldPlane *levels, const CeldLabels *regions,
-                                          const CeldLabels *corrections, CeldExpansion method, const CeldHost *host,
-                                          CeldPlane *level, CeldLabels *region, CeldPlane *coverage);
+CELD_API CeldStatus celd_matte_of_levels (const CeldPlane *ink, const CeldPaint *colours, const CeldPlane *levels,
+                                          const CeldLabels *regions, const CeldLabels *corrections,
+                                          CeldExpansion method, const CeldHost *host, CeldPlane *level,
+                                          CeldLabels *region, CeldPlane *coverage);
 
 /* Depth expansion by the thickness of contours (section 3.3).  Levels may be any numbers, larger = nearer; `expanded`
  * may alias `levels`. */
@@ -237,9 +239,10 @@ CELD_API CeldStatus celd_layers_joints (const CeldLayers *layers, uint32_t page,
 /* Cuts layers from levels before expansion, with the labels of celd_expand_levels.  The label of a layer is its number,
  * 1 for the farthest.  The farthest label is the background if it covers most of the frame.  Of the settings,
  * expansion, complete and margin count. */
-CELD_API CeldStatus celd_layers_of_levels (const CeldPlane *ink, const CeldPlane *levels, const CeldLabels *regions,
-                                           const CeldLabels *corrections, const CeldColours *art, CeldStore store,
-                                           const CeldSettings *settings, const CeldHost *host, CeldLayers **layers);
+CELD_API CeldStatus celd_layers_of_levels (const CeldPlane *ink, const CeldPaint *colours, const CeldPlane *levels,
+                                           const CeldLabels *regions, const CeldLabels *corrections,
+                                           const CeldColours *art, CeldStore store, const CeldSettings *settings,
+                                           const CeldHost *host, CeldLayers **layers);
 
 /* Smooth depth, eq. (3), from levels, expanded or not.  Anchors, the pixels that `anchors` marks (the paper's U_o),
  * keep their level; with settings->hold_rest, or if `anchors` is NULL, so does the core of each region without one.

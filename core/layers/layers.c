@@ -349,9 +349,9 @@ celd_level_layers_cut (const CeldLevelOwnership *made, const CeldPlane *ink, con
 }
 
 CeldStatus
-celd_layers_of_levels (const CeldPlane *ink, const CeldPlane *levels, const CeldLabels *regions,
-                       const CeldLabels *corrections, const CeldColours *art, CeldStore store,
-                       const CeldSettings *settings, const CeldHost *host, CeldLayers **layers)
+celd_layers_of_levels (const CeldPlane *ink, const CeldPaint *colours, const CeldPlane *levels,
+                       const CeldLabels *regions, const CeldLabels *corrections, const CeldColours *art,
+                       CeldStore store, const CeldSettings *settings, const CeldHost *host, CeldLayers **layers)
 {
   CeldLevelOwnership made;
   CeldHostPart       part[2];
@@ -360,7 +360,7 @@ celd_layers_of_levels (const CeldPlane *ink, const CeldPlane *levels, const Celd
 
   if (status != CELD_OK)
     return status;
-  status = celd_level_ownership_new (ink, levels, regions, corrections, settings->expansion, &first, &made);
+  status = celd_level_ownership_new (ink, colours, levels, regions, corrections, settings->expansion, &first, &made);
   if (status == CELD_OK)
     status = celd_level_layers_cut (&made, ink, art, store, settings, &second, layers);
   celd_level_ownership_clear (&made);

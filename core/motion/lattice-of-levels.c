@@ -18,7 +18,7 @@ celd_lattice_of_levels (const CeldPlane *ink, const CeldPlane *levels, const Cel
 
   if (celd_settings_check (settings) != CELD_OK)
     return CELD_BAD_VALUE;
-  status = celd_level_ownership_new (ink, levels, regions, NULL, settings->expansion, &first, &made);
+  status = celd_level_ownership_new (ink, NULL, levels, regions, NULL, settings->expansion, &first, &made);
   if (status == CELD_OK)
     status = celd_level_background (&made, &parts.background);
   if (status == CELD_OK)

@@ -33,7 +33,7 @@ celd_puppet_of_levels (const CeldPlane *ink, const CeldPlane *levels, const Celd
   if (celd_settings_check (settings) != CELD_OK)
     return CELD_BAD_VALUE;
   whole.complete = true;
-  status = celd_level_ownership_new (ink, levels, NULL, NULL, settings->expansion, &first, &made);
+  status = celd_level_ownership_new (ink, NULL, levels, NULL, NULL, settings->expansion, &first, &made);
   if (status == CELD_OK)
     status = celd_level_background (&made, &background);
   if (status == CELD_OK)

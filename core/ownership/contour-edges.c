@@ -281,5 +281,6 @@ celd_contour_edges_clear (CeldContourEdges *edges)
 {
   celd_free (edges->point);
   celd_free (edges->loop);
+  celd_free (edges->piece);
   *edges = (CeldContourEdges) { 0 };
 }

@@ -137,6 +137,8 @@ reassign (const CeldOwnershipInput *in, CeldOwnershipCache *kept)
 {
   CeldStatus status = celd_enclosed_ink_join (&kept->excess, &kept->owner, &kept->reassigned);
 
+  if (status == CELD_OK)
+    status = celd_line_pieces_give (&kept->pens, &kept->excess, &kept->owner, &kept->reassigned);
   if (status == CELD_OK && in->corrections)
     status = celd_corrections_apply (&kept->pens, in->ink, in->corrections, &kept->owner, &kept->reassigned);
   return status;
@@ -248,6 +250,8 @@ celd_ownership_cache_make (const CeldOwnershipInput *input, const CeldHost *host
   status = find_antialiased (input->ink, &kept->antialiased);
   if (status == CELD_OK)
     status = celd_contour_edges_new (input->ink, &first, &kept->edges);
+  if (status == CELD_OK && input->colours)
+    status = celd_line_shades_read (input->colours, input->ink, &kept->edges);
   if (status == CELD_OK)
     status = measure_pens (input, kept, (CeldRect) { 0, 0, w, h }, &pens, &solid);
   if (status == CELD_OK)

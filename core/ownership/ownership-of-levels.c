@@ -123,9 +123,9 @@ number_corrections (const CeldLevelOwnership *made, const CeldLabels *correction
 /* ------------------------------------------------------------------ public functions */
 
 CeldStatus
-celd_level_ownership_new (const CeldPlane *ink, const CeldPlane *levels, const CeldLabels *regions,
-                          const CeldLabels *corrections, CeldExpansion method, const CeldHost *host,
-                          CeldLevelOwnership *made)
+celd_level_ownership_new (const CeldPlane *ink, const CeldPaint *colours, const CeldPlane *levels,
+                          const CeldLabels *regions, const CeldLabels *corrections, CeldExpansion method,
+                          const CeldHost *host, CeldLevelOwnership *made)
 {
   CeldLabels numbered = { 0 };
   CeldStatus status;
@@ -142,8 +142,8 @@ celd_level_ownership_new (const CeldPlane *ink, const CeldPlane *levels, const C
   if (status == CELD_OK && corrections)
     status = number_corrections (made, corrections, &numbered);
   if (status == CELD_OK)
-    status = celd_own (ink, &made->own.owner, made->order, made->n, corrections ? &numbered : NULL, method, host,
-                       &made->own);
+    status = celd_own (ink, colours, &made->own.owner, made->order, made->n, corrections ? &numbered : NULL, method,
+                       host, &made->own);
   celd_free (numbered.data);
   return status;
 }
@@ -189,15 +189,16 @@ write_levels (const CeldLevelOwnership *made, CeldPlane *expanded)
 }
 
 CeldStatus
-celd_expand_levels (const CeldPlane *ink, const CeldPlane *levels, const CeldLabels *regions,
-                    const CeldLabels *corrections, CeldExpansion method, const CeldHost *host, CeldPlane *expanded)
+celd_expand_levels (const CeldPlane *ink, const CeldPaint *colours, const CeldPlane *levels,
+                    const CeldLabels *regions, const CeldLabels *corrections, CeldExpansion method,
+                    const CeldHost *host, CeldPlane *expanded)
 {
   CeldLevelOwnership made;
   CeldStatus         status;
 
   if (!CELD_SAME_SIZE (levels, expanded))
     return CELD_BAD_SIZE;
-  status = celd_level_ownership_new (ink, levels, regions, corrections, method, host, &made);
+  status = celd_level_ownership_new (ink, colours, levels, regions, corrections, method, host, &made);
   if (status == CELD_OK)
     write_levels (&made, expanded);
   celd_level_ownership_clear (&made);
@@ -205,9 +206,9 @@ celd_expand_levels (const CeldPlane *ink, const CeldPlane *levels, const CeldLab
 }
 
 CeldStatus
-celd_matte_of_levels (const CeldPlane *ink, const CeldPlane *levels, const CeldLabels *regions,
-                      const CeldLabels *corrections, CeldExpansion method, const CeldHost *host, CeldPlane *level,
-                      CeldLabels *region, CeldPlane *coverage)
+celd_matte_of_levels (const CeldPlane *ink, const CeldPaint *colours, const CeldPlane *levels,
+                      const CeldLabels *regions, const CeldLabels *corrections, CeldExpansion method,
+                      const CeldHost *host, CeldPlane *level, CeldLabels *region, CeldPlane *coverage)
 {
   CeldLevelOwnership made;
   CeldStatus         status;
@@ -215,7 +216,7 @@ celd_matte_of_levels (const CeldPlane *ink, const CeldPlane *levels, const CeldL
   if (!CELD_SAME_SIZE (levels, level) || !CELD_SAME_SIZE (levels, coverage) ||
       (region && !CELD_SAME_SIZE (levels, region)))
     return CELD_BAD_SIZE;
-  status = celd_level_ownership_new (ink, levels, regions, corrections, method, host, &made);
+  status = celd_level_ownership_new (ink, colours, levels, regions, corrections, method, host, &made);
   for (int y = 0; y < levels->height && status == CELD_OK; y++)
     for (int x = 0; x < levels->width; x++)
       {

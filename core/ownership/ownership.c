@@ -192,14 +192,16 @@ own_by_outlines (const CeldContourPens *pens, const CeldPlane *ink, const CeldLa
     status = celd_claims_assign (pens, ink, labels, solid, host, &own->owner, &own->coverage);
   if (status == CELD_OK)
     status = celd_enclosed_ink_join (&own->coverage, &own->owner, reassigned);
+  if (status == CELD_OK)
+    status = celd_line_pieces_give (pens, &own->coverage, &own->owner, reassigned);
   celd_free (solid);
   return status;
 }
 
 /* Applies the method, and then the corrections, which need contour edges also for the method `thickness`. */
 static CeldStatus
-own_ink (const CeldPlane *ink, const CeldLabels *labels, const uint32_t *level, size_t n, const CeldLabels *corrections,
-         CeldExpansion method, const CeldHost *host, CeldOwnership *own)
+own_ink (const CeldPlane *ink, const CeldPaint *colours, const CeldLabels *labels, const uint32_t *level, size_t n,
+         const CeldLabels *corrections, CeldExpansion method, const CeldHost *host, CeldOwnership *own)
 {
   CeldContourEdges edges = { 0 };
   CeldContourPens  pens = { 0 };
@@ -212,6 +214,8 @@ own_ink (const CeldPlane *ink, const CeldLabels *labels, const uint32_t *level, 
   if (method == CELD_EXPANSION_OUTLINES || corrections)
     {
       status = celd_contour_edges_new (ink, &first, &edges);
+      if (status == CELD_OK && colours && method == CELD_EXPANSION_OUTLINES)
+        status = celd_line_shades_read (colours, ink, &edges);
       if (status == CELD_OK)
         status = celd_contour_pens_new (&edges, labels, level, n, &pens);
     }
@@ -231,10 +235,10 @@ own_ink (const CeldPlane *ink, const CeldLabels *labels, const uint32_t *level, 
 
 /* Checks that sizes agree and labels are within 1 .. n. */
 static CeldStatus
-check (const CeldPlane *ink, const CeldLabels *labels, size_t n, const CeldLabels *corrections,
-       const CeldOwnership *own)
+check (const CeldPlane *ink, const CeldPaint *colours, const CeldLabels *labels, size_t n,
+       const CeldLabels *corrections, const CeldOwnership *own)
 {
-  if (!CELD_SAME_SIZE (ink, labels) || !CELD_SAME_SIZE (labels, &own->owner) || !CELD_SAME_SIZE (labels, &own->under) ||
+  if (!CELD_SAME_SIZE (ink, labels) || (colours && !CELD_SAME_SIZE (ink, colours)) || !CELD_SAME_SIZE (labels, &own->owner) || !CELD_SAME_SIZE (labels, &own->under) ||
       !CELD_SAME_SIZE (labels, &own->coverage) || (corrections && !CELD_SAME_SIZE (labels, corrections)))
     return CELD_BAD_SIZE;
   for (int y = 0; y < labels->height; y++)
@@ -268,12 +272,12 @@ complete (const CeldPlane *ink, const uint32_t *level, CeldOwnership *own)
 }
 
 CeldStatus
-celd_own (const CeldPlane *ink, const CeldLabels *labels, const uint32_t *level, size_t n,
+celd_own (const CeldPlane *ink, const CeldPaint *colours, const CeldLabels *labels, const uint32_t *level, size_t n,
           const CeldLabels *corrections, CeldExpansion method, const CeldHost *host, CeldOwnership *ownership)
 {
-  CeldStatus status = check (ink, labels, n, corrections, ownership);
+  CeldStatus status = check (ink, colours, labels, n, corrections, ownership);
 
   if (status == CELD_OK)
-    status = own_ink (ink, labels, level, n, corrections, method, host, ownership);
+    status = own_ink (ink, colours, labels, level, n, corrections, method, host, ownership);
   return status == CELD_OK ? complete (ink, level, ownership) : status;
 }

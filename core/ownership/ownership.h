@@ -3,6 +3,8 @@
  *   contour-edges.c        traces the edges of ink and measures how thick the ink is
  *   contour-pens.c         reads the labels beside each point of an edge, and keeps pens up to date
  *   contour-owners.c       finds the region whose pen drew the ink next to each point
+ *   line-shades.c          finds of what fills the lines of a coloured drawing are shades
+ *   line-pieces.c          gives pieces of lines in one colour to the regions of these fills
  *   pen-width.c            estimates the width of each pen
  *   claims.c               assigns ink to the pens that cover it
  *   claim-remainder.c      assigns the pixels that no pen covers
@@ -99,6 +101,9 @@ celd_tile_rect (int tile_x, int tile_y, int width, int height)
 
 /* ------------------------------------------------------------------ contour-edges.c */
 
+/* Of which paper the line next to the paper on this side is a shade: of that, or of the one on the other side. */
+typedef enum { CELD_SHADE_UNKNOWN, CELD_SHADE_NEAR, CELD_SHADE_FAR } CeldLineShade;
+
 /* A point of an edge, with the precision of antialiasing. */
 typedef struct
 {
@@ -112,6 +117,8 @@ typedef struct
   bool    corner;               /* the edge turns sharply here */
   bool    skewed;               /* a corner is so close that the normal is unreliable */
   bool    faces_corner;         /* the edge on the other side of the ink turns sharply near there */
+  CeldLineShade shade;          /* see line-shades.c */
+  uint32_t      piece;          /* of a line, which has that shade; 0: unknown */
 } CeldEdgePoint;
 
 /* A closed edge: the points first .. first + n - 1, in an order that has paper on the right. */
@@ -124,6 +131,9 @@ typedef struct
   size_t         n_points, point_capacity;
   CeldEdgeLoop  *loop;
   size_t         n_loops, loop_capacity;
+  uint32_t      *piece;         /* of pixel y * width + x: which piece of a line it is in, from 1, or 0; NULL: colours
+                                 * do not tell whose lines are */
+  uint32_t       n_pieces;
 } CeldContourEdges;
 
 CeldStatus celd_contour_edges_new (const CeldPlane *ink, const CeldHost *host, CeldContourEdges *edges);
@@ -137,6 +147,26 @@ celd_floor (float value)
 
   return down - ((float) down > value);
 }
+
+/* ------------------------------------------------------------------ line-shades.c, line-pieces.c */
+
+#define CELD_INK_FADES 1.f /* pixels from the edge of ink to where that is not antialiased; chosen */
+
+/* A pixel of the line whose shade a point knows, as y * width + x. */
+static inline uint32_t
+celd_shade_pixel (const CeldContourEdges *edges, const CeldEdgePoint *p)
+{
+  float along = p->shade == CELD_SHADE_NEAR ? CELD_INK_FADES : p->thickness / 2;
+
+  return (uint32_t) (celd_floor (p->y + along * p->ny) * edges->width + celd_floor (p->x + along * p->nx));
+}
+
+/* Finds of what paper lines are shades, in the colours that the drawing was painted in, and divides them into pieces:
+ * sets `shade` and `piece` of all points, and `piece` of the edges if colours tell whose lines are. */
+CeldStatus celd_line_shades_read (const CeldPaint *colours, const CeldPlane *ink, CeldContourEdges *edges);
+
+/* Its second step: by the shades of all points. */
+CeldStatus celd_line_pieces_find (const CeldPaint *colours, const CeldPlane *ink, CeldContourEdges *edges);
 
 /* ------------------------------------------------------------------ contour-pens.c */
 
@@ -290,6 +320,13 @@ void celd_reassigned_clear (CeldReassigned *reassigned);
  * CELD_NO_MEMORY alone makes it do. */
 CeldStatus celd_enclosed_ink_join (const CeldPlane *excess, CeldLabels *owner, CeldReassigned *reassigned);
 
+/* ------------------------------------------------------------------ line-pieces.c */
+
+/* Gives pieces of lines to the labels that nearly all points along them say.  `excess` is that of the claims.  Appends
+ * the pixels to `reassigned`, also when it fails, which CELD_NO_MEMORY alone makes it do. */
+CeldStatus celd_line_pieces_give (const CeldContourPens *pens, const CeldPlane *excess, CeldLabels *owner,
+                                  CeldReassigned *reassigned);
+
 /* ------------------------------------------------------------------ corrections.c */
 
 /* Gives the ink under strokes (0 = no stroke), and the pieces of line that they touch, to the strokes' labels.
@@ -346,13 +383,14 @@ typedef struct
 typedef struct
 {
   const CeldPlane  *ink;
+  const CeldPaint  *colours;              /* that the drawing was painted in; NULL: unknown */
   const CeldLabels *labels, *corrections; /* corrections NULL: none */
   const uint32_t   *level;
   size_t            n;
 } CeldOwnershipInput;
 
 /* Compute the record from scratch, or update it after a change of levels, corrections, and of labels within
- * `new_labels`; the ink has to be the same.  *changed is the part of the record that changes.  After a failure the
+ * `new_labels`; ink and colours have to be the same.  *changed is the part of the record that changes.  After a failure the
  * record is unchanged and the cache is empty. */
 CeldStatus celd_ownership_cache_make (const CeldOwnershipInput *input, const CeldHost *host, CeldOwnershipCache *kept,
                                       CeldOwnership *ownership);
@@ -389,9 +427,9 @@ typedef struct
 } CeldLevelOwnership;
 
 /* See celd_expand_levels.  The record has to be cleared also after a failure. */
-CeldStatus celd_level_ownership_new (const CeldPlane *ink, const CeldPlane *levels, const CeldLabels *regions,
-                                     const CeldLabels *corrections, CeldExpansion method, const CeldHost *host,
-                                     CeldLevelOwnership *made);
+CeldStatus celd_level_ownership_new (const CeldPlane *ink, const CeldPaint *colours, const CeldPlane *levels,
+                                     const CeldLabels *regions, const CeldLabels *corrections, CeldExpansion method,
+                                     const CeldHost *host, CeldLevelOwnership *made);
 /* The same of levels that are expanded already, which are the larger ones of each pixel; the pictures have one size. */
 CeldStatus celd_expanded_ownership_new (const CeldPlane *ink, const CeldPlane *levels, CeldLevelOwnership *made);
 void       celd_level_ownership_clear (CeldLevelOwnership *made);

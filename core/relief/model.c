@@ -139,7 +139,7 @@ celd_model_of_levels (const CeldPlane *ink, const CeldPlane *borders, const Celd
 
   if (status != CELD_OK)
     return status;
-  status = celd_level_ownership_new (ink, levels, regions, NULL, settings->expansion, &owning, &made);
+  status = celd_level_ownership_new (ink, NULL, levels, regions, NULL, settings->expansion, &owning, &made);
   if (status == CELD_OK)
     status = celd_level_sheets (&made, ink, settings, &hiding, &sheets);
   if (status == CELD_OK)

@@ -102,13 +102,14 @@ copy_plane (const CeldPlane *from, CeldPlane *to)
 static void
 clear_layers (CeldSession *s)
 {
+  celd_free (s->colours.data);
   celd_free (s->scribbles.data);
   celd_free (s->arrows.data);
   celd_free (s->contours.data);
   celd_free (s->hint.data);
   celd_free (s->corrections.data);
   celd_free (s->hidden.data);
-  s->scribbles = s->arrows = s->contours = s->corrections = s->hidden = (CeldPaint) { 0 };
+  s->colours = s->scribbles = s->arrows = s->contours = s->corrections = s->hidden = (CeldPaint) { 0 };
   s->hint = (CeldPlane) { 0 };
 }
 
@@ -168,6 +169,22 @@ set_layer (CeldSession *s, const CeldPaint *from, CeldPaint *layer, CeldStage st
   *layer = copy;
   celd_session_invalidate (s, stage);
   return CELD_OK;
+}
+
+CeldStatus
+celd_session_set_colours (CeldSession *session, const CeldPaint *colours)
+{
+  const uint8_t *old = session->colours.data;
+  CeldStatus     status;
+
+  if (colours && !CELD_SAME_SIZE (&session->drawing.luma, colours))
+    return CELD_BAD_SIZE;
+  if (colours && !celd_paint_is_coloured (colours))
+    colours = NULL;
+  status = set_layer (session, colours, &session->colours, STAGE_OWNERSHIP);
+  if (session->colours.data != old)
+    celd_session_discard_ownership (session);
+  return status;
 }
 
 CeldStatus

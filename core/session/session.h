@@ -41,6 +41,7 @@ struct CeldSession
   /* set by the host */
   CeldSettings  settings;
   CeldDrawing   drawing;                          /* luma.data NULL: none yet */
+  CeldPaint     colours;                          /* that it was painted in; data NULL: grey, or unknown */
   CeldPaint     scribbles, arrows, contours, corrections, hidden; /* data NULL: none */
   CeldPlane     hint;                             /* depth picture for suggestions; data NULL: none */
   CeldStroke   *stroke;                           /* in painting order */

@@ -88,7 +88,7 @@ make_ownership (CeldSession *s, const CeldOwnershipInput *input, const CeldHost 
   if (status == CELD_OK && s->settings.expansion == CELD_EXPANSION_OUTLINES)
     status = celd_ownership_cache_make (input, host, &s->ownership_cache, &own);
   else if (status == CELD_OK)
-    status = celd_own (input->ink, input->labels, input->level, input->n, input->corrections, s->settings.expansion,
+    status = celd_own (input->ink, input->colours, input->labels, input->level, input->n, input->corrections, s->settings.expansion,
                        host, &own);
   if (status == CELD_OK)
     replace_ownership (s, &own);
@@ -128,8 +128,8 @@ CeldStatus
 celd_make_ownership (CeldSession *s, const CeldHost *host)
 {
   CeldLabels         corrections = { 0 };
-  CeldOwnershipInput input = { celd_session_split_ink (s), celd_session_current_labels (s), NULL, s->order.level,
-                               s->order.n };
+  CeldOwnershipInput input = { .ink = celd_session_split_ink (s), .labels = celd_session_current_labels (s),
+                               .level = s->order.level, .n = s->order.n };
   uint32_t          *level;
   CeldStatus         status;
 
@@ -139,6 +139,8 @@ celd_make_ownership (CeldSession *s, const CeldHost *host)
     return CELD_OK;
   level  = celd_alloc (s->order.n, sizeof *level);
   status = level ? read_corrections (s, &corrections) : CELD_NO_MEMORY;
+  if (s->colours.data)
+    input.colours = &s->colours;
   if (corrections.data)
     input.corrections = &corrections;
   if (status == CELD_OK)

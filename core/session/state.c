@@ -209,7 +209,7 @@ celd_session_clear_results (CeldSession *s)
 void
 celd_session_drop_pictures (CeldSession *s)
 {
-  CeldPaint *paint[] = { &s->scribbles, &s->arrows, &s->contours, &s->corrections, &s->hidden };
+  CeldPaint *paint[] = { &s->colours, &s->scribbles, &s->arrows, &s->contours, &s->corrections, &s->hidden };
   CeldPlane *plane[] = { &s->hint, &s->drawing.luma, &s->drawing.alpha };
 
   clear_made (s);

@@ -294,7 +294,7 @@ celd_scene_of_levels (const CeldPlane *ink, const CeldPlane *levels, const CeldP
   if (status != CELD_OK)
     return status;
   whole.complete = true;
-  status = celd_level_ownership_new (ink, levels, NULL, NULL, settings->expansion, &first, &made);
+  status = celd_level_ownership_new (ink, NULL, levels, NULL, NULL, settings->expansion, &first, &made);
   if (status == CELD_OK)
     status = celd_level_layers_cut (&made, ink, art, CELD_STORE_FLOAT, &whole, &second, &layers);
   if (status == CELD_OK)

@@ -186,9 +186,9 @@ void        cli_threads_each (CliThreads *threads, int n, void (*body) (void *da
 /* ------------------------------------------------------------------ pictures.c, pictures-write.c, npy.c */
 
 /* A photograph is refused, with a message about `path`, unless the options say what the lines are, or that there are
- * none. */
-bool cli_read_drawing (CeldIoFile *file, size_t part, const char *path, const CliOptions *options,
-                       CeldDrawing *drawing);
+ * none.  `painted` gets the colours of a coloured drawing. */
+bool cli_read_drawing (CeldIoFile *file, size_t part, const char *path, const CliOptions *options, CeldDrawing *drawing,
+                       CeldPaint *painted);
 bool cli_read_paint   (CeldIoFile *file, size_t part, const char *path, CeldPaint *paint);
 /* Colours of a part, in linear light or encoded as sRGB; and of the first part of a file, in linear light.  Free data
  * with g_free. */
@@ -254,6 +254,7 @@ typedef struct
 {
   int         width, height;
   CeldDrawing drawing;
+  CeldPaint   colours; /* that the drawing was painted in; data NULL: it is grey */
   CeldPaint   scribbles, arrows, contours, corrections, hidden;
 } CliLayers;
 
@@ -370,6 +371,8 @@ typedef struct
 bool cli_step_begin (const CliOptions *options, CliStep *step);
 /* The ink for segmentation, which tells where blue contours keep depth smooth; NULL without contours. */
 const CeldPlane *cli_step_borders (const CliStep *step);
+/* The colours that the drawing was painted in; NULL if it is grey. */
+const CeldPaint *cli_step_colours (const CliStep *step);
 /* The exit code. */
 int  cli_step_end   (CliStep *step, bool good);
 

@@ -144,7 +144,7 @@ write_levels_and_depth (const CliMotion *motion, const CeldHost *host, const Cli
 
   for (size_t i = 0; good && i < (size_t) motion->width * (size_t) motion->height; i++)
     levels.data[i] = celd_order_value (order, order->level[state->labels.data[i] - 1], settings);
-  good = good && cli_check (celd_expand_levels (&state->ink, &levels, &state->labels, NULL, settings->expansion, host,
+  good = good && cli_check (celd_expand_levels (&state->ink, NULL, &levels, &state->labels, NULL, settings->expansion, host,
                                                 &levels)) &&
          cli_write_depth (path, &levels, nearest);
   g_free (path);

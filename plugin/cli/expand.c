@@ -16,8 +16,9 @@ run_expand (const CliOptions *options)
   if (good)
     {
       cli_run_stage (&step.run, "levels");
-      good = cli_run_finish (&step.run, celd_expand_levels (&step.ink, &step.levels, regions.data ? &regions : NULL,
-                                                            NULL, options->settings.expansion, &step.run.host,
+      good = cli_run_finish (&step.run, celd_expand_levels (&step.ink, cli_step_colours (&step), &step.levels,
+                                                            regions.data ? &regions : NULL, NULL,
+                                                            options->settings.expansion, &step.run.host,
                                                             &step.levels)) &&
              cli_write_depth (options->levels, &step.levels, cli_nearest_level (&step.levels));
     }

@@ -136,7 +136,7 @@ cut_layers (Between *b, int s)
 
   if (good)
     {
-      status = celd_own (&b->ink[s], &b->labels[s], motion->order.level, motion->order.n, NULL, o->settings.expansion,
+      status = celd_own (&b->ink[s], NULL, &b->labels[s], motion->order.level, motion->order.n, NULL, o->settings.expansion,
                          &b->run.host, &own);
       if (status == CELD_OK)
         status = celd_sheets (&b->ink[s], &own, NULL, &motion->order, motion->background, &o->settings, &b->run.host,

@@ -202,7 +202,7 @@ read_input (const char *path, const CliOptions *options, CliRoles wanted, CliLay
   CeldIoFile *file = open_file (path);
   size_t      drawing = file ? find_drawing (file, path) : CELD_NO_INDEX;
   bool        good = drawing != CELD_NO_INDEX && check_size (file, path, layers) &&
-                     cli_read_drawing (file, drawing, path, options, &layers->drawing);
+                     cli_read_drawing (file, drawing, path, options, &layers->drawing, &layers->colours);
 
   if (good && !options->quiet)
     say_left_out (file, drawing, path, "drawing");
@@ -237,6 +237,7 @@ cli_layers_clear (CliLayers *layers)
 {
   g_free (layers->drawing.luma.data);
   g_free (layers->drawing.alpha.data);
+  g_free (layers->colours.data);
   g_free (layers->scribbles.data);
   g_free (layers->arrows.data);
   g_free (layers->contours.data);

@@ -102,9 +102,9 @@ colours_convert (const Colours *colours, int y, void *to)
   babl_process (colours->fish, colours->row, to, colours->width);
 }
 
-/* Replaces the drawing by its lines if it is a coloured one. */
+/* Replaces the drawing by its lines if it is a coloured one; *painted gets its colours then. */
 static bool
-take_coloured_lines (const Colours *colours, CeldInkMode mode, CeldDrawing *drawing)
+take_coloured_lines (const Colours *colours, CeldInkMode mode, CeldDrawing *drawing, CeldPaint *painted)
 {
   int       width = drawing->luma.width, height = drawing->luma.height;
   CeldPaint art = { width, height, (size_t) width, g_try_new (uint8_t, 4 * (gsize) width * (gsize) height) };
@@ -118,13 +118,17 @@ take_coloured_lines (const Colours *colours, CeldInkMode mode, CeldDrawing *draw
         art.data[4 * (size_t) y * (size_t) width + (size_t) i] = (uint8_t) (255 * CLAMP (row[i], 0, 1) + 0.5f);
     }
   good = good && cli_check (celd_coloured_lines (&art, mode, NULL, drawing));
-  g_free (art.data);
+  if (good && celd_paint_is_coloured (&art))
+    *painted = art;
+  else
+    g_free (art.data);
   g_free (row);
   return good;
 }
 
 bool
-cli_read_drawing (CeldIoFile *file, size_t part, const char *path, const CliOptions *options, CeldDrawing *drawing)
+cli_read_drawing (CeldIoFile *file, size_t part, const char *path, const CliOptions *options, CeldDrawing *drawing,
+                  CeldPaint *painted)
 {
   CeldInkMode mode = options->settings.ink;
   int     width = celd_io_width (file), height = celd_io_height (file);
@@ -144,7 +148,7 @@ cli_read_drawing (CeldIoFile *file, size_t part, const char *path, const CliOpti
     }
   good = good && (mode != CELD_INK_AUTO || options->settings.flats || cli_check_drawing (path, drawing, options->quiet));
   if (good)
-    good = take_coloured_lines (&colours, mode, drawing);
+    good = take_coloured_lines (&colours, mode, drawing, painted);
   g_free (row);
   colours_clear (&colours);
   return good;

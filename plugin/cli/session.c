@@ -43,7 +43,8 @@ cli_session_load (CeldSession *session, const CliOptions *options, CliLayers *la
                        cli_check (celd_session_set_settings (session, &options->settings)) &&
                        cli_check (celd_session_set_drawing (session, &layers->drawing));
 
-  good = good && load_layer (session, &layers->scribbles, celd_session_set_scribbles) &&
+  good = good && load_layer (session, &layers->colours, celd_session_set_colours) &&
+         load_layer (session, &layers->scribbles, celd_session_set_scribbles) &&
          load_layer (session, &layers->arrows, celd_session_set_arrows) &&
          load_layer (session, &layers->contours, celd_session_set_contours) &&
          (!options->depth_hint || load_hint (session, options, layers)) &&

@@ -55,6 +55,12 @@ cli_step_borders (const CliStep *step)
   return step->borders.data ? &step->borders : NULL;
 }
 
+const CeldPaint *
+cli_step_colours (const CliStep *step)
+{
+  return step->layers.colours.data ? &step->layers.colours : NULL;
+}
+
 bool
 cli_regions_read (const char *path, CliLayers *layers, CeldLabels *regions, CeldPalette *palette)
 {

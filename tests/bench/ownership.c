@@ -91,7 +91,7 @@ measure_whole (const Page *page, const char *name, CeldExpansion method, int run
     {
       double start = seconds ();
 
-      must (celd_own (&page->ink, &labels, order->level, order->n, NULL, method, NULL, &own));
+      must (celd_own (&page->ink, NULL, &labels, order->level, order->n, NULL, method, NULL, &own));
       time[i] = seconds () - start;
     }
   after = memory_now ();
@@ -116,7 +116,7 @@ compare_with_whole (const Page *page, const CeldLabels *corrections)
   must (celd_session_labels (page->session, NULL, &labels, NULL));
   must (celd_session_order (page->session, NULL, &order));
   must (celd_ownership_new (labels.width, labels.height, &whole));
-  must (celd_own (&page->ink, &labels, order->level, order->n, corrections, page->settings.expansion, NULL, &whole));
+  must (celd_own (&page->ink, NULL, &labels, order->level, order->n, corrections, page->settings.expansion, NULL, &whole));
   if (memcmp (own.owner.data, whole.owner.data, size) || memcmp (own.under.data, whole.under.data, size) ||
       memcmp (own.coverage.data, whole.coverage.data, size))
     {

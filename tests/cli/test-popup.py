@@ -7,7 +7,7 @@ import os
 import unittest
 
 import numpy as np
-from PIL import ImageDraw
+from PIL import Image, ImageDraw
 
 from pictures import HEIGHT, IN_A, IN_B, IN_PAGE, RELATIONS, WIDTH, Test, at, drawing
 from stacks import read_exr, read_open_raster
@@ -136,6 +136,31 @@ class OneRun(Test):
         self.assertGreater(changed['paper'][1], 30)
         self.assertIn("--preset must be everyday, cel, balloon, relief or paper, not 'nonsense'.",
                       self.celdepth('popup', *INPUT, '--shaded', 'no.png', '--preset', 'nonsense', code=2))
+
+    def test_whose_line(self):
+        """Lines that are darker shades of a part are that part's, in popup and in expand, although another is nearer."""
+        shades = {place: tuple(2 * value // 5 for value in colour) for place, colour in FILLS.items()}
+
+        def page(name, line_of_a, line_of_b):
+            picture = Image.new('RGB', (WIDTH, HEIGHT), FILLS[IN_PAGE])
+            draw = ImageDraw.Draw(picture)
+            draw.rectangle([10, 10, 60, 45], fill=FILLS[IN_A], outline=line_of_a, width=4)
+            draw.rectangle([40, 25, 85, 57], fill=FILLS[IN_B], outline=line_of_b, width=4)
+            picture.save(self.path(name))
+
+        page('shades.png', shades[IN_A], shades[IN_B])
+        page('brown.png', (70, 40, 20), (70, 40, 20))
+        for name in 'shades', 'brown':
+            self.celdepth('popup', f'{name}.png', '--scribbles', 'scribbles.png', '--relations',
+                          '4,4 > 20,20; 20,20 > 70,45', '--levels', f'{name}.npy', '--unexpanded-levels',
+                          'flat.npy', '--labels', 'labels.png')
+            self.celdepth('expand', 'flat.npy', '--drawing', f'{name}.png', '--regions', 'labels.png', '--levels',
+                          f'{name}-alone.npy')
+            np.testing.assert_array_equal(np.load(self.path(f'{name}.npy')), np.load(self.path(f'{name}-alone.npy')))
+        a_at_page, b_at_a = (11, 30), (41, 35)
+        for name, owners in ('shades', (IN_A, IN_B)), ('brown', (IN_PAGE, IN_A)):
+            levels = np.load(self.path(f'{name}.npy'))
+            self.assertEqual([at(levels, place) for place in (a_at_page, b_at_a)], [at(levels, place) for place in owners])
 
     def test_other_colours(self):
         """--colours is the art in place of the drawing."""

@@ -128,6 +128,48 @@ blobs_add (Blobs *b, uint32_t *seed, double pen, double vary)
   blobs_draw (b, &blob);
 }
 
+/* A colour for the paper of a label, 0 .. 255. */
+static inline void
+blobs_fill (uint32_t label, double colour[3])
+{
+  static const uint8_t fills[][3] = { { 240, 240, 245 }, { 220, 90, 80 }, { 90, 190, 90 }, { 90, 110, 220 },
+                                      { 220, 190, 70 }, { 200, 90, 210 }, { 80, 200, 210 } };
+
+  for (int c = 0; c < 3; c++)
+    colour[c] = fills[(label - 1) % 7][c];
+}
+
+/* Lines are darker shades of their owner's paper. */
+static inline void
+blobs_shade (uint32_t label, double colour[3])
+{
+  blobs_fill (label, colour);
+  for (int c = 0; c < 3; c++)
+    colour[c] *= 0.4;
+}
+
+/* The page in colours, by labels on paper and by owners in ink; free its data with celd_free. */
+static inline CeldPaint
+blobs_paint (const Blobs *b, void (*fill_of) (uint32_t label, double colour[3]),
+             void (*line_of) (uint32_t label, double colour[3]))
+{
+  int       w = b->ink.width, h = b->ink.height;
+  CeldPaint art = { w, h, (size_t) w, celd_alloc ((size_t) w * (size_t) h, 4) };
+
+  for (int p = 0; art.data && p < w * h; p++)
+    {
+      double fill[3], line[3], ink = 1 - (double) b->ink.data[p];
+
+      fill_of (b->labels.data[p], fill);
+      line_of (b->owner.data[p], line);
+      for (int c = 0; c < 3; c++)
+        art.data[4 * p + c] = (uint8_t) (fill[c] * (1 - ink) + line[c] * ink + 0.5);
+      art.data[4 * p + 3] = 255;
+    }
+  CHECK (art.data);
+  return art;
+}
+
 /* The share of ink pixels that are given to their owner. */
 static inline double
 blobs_score (const Blobs *b, const CeldOwnership *own)

@@ -169,7 +169,7 @@ try_regions (FuzzInput *input, Page *page)
   status = celd_depth_exact (&ink, &seeds, &palette, &relations, &page->settings, NULL, &made, &exact, &problems);
   check_status (status);
   FUZZ_CHECK (status != CELD_OK || are_finite (page->made, (size_t) (page->width * page->height)));
-  check_status (celd_expand_levels (&ink, &hint, &seeds, NULL, page->settings.expansion, NULL, &made));
+  check_status (celd_expand_levels (&ink, NULL, &hint, &seeds, NULL, page->settings.expansion, NULL, &made));
   check_status (celd_expand (&ink, &seeds, NULL, &owner));
   celd_relations_clear (&suggested);
   celd_order_clear (&order);

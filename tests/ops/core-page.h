@@ -32,7 +32,7 @@ make_order (const CeldSettings *settings)
   for (int i = 0; status == CELD_OK && i < PIXELS; i++)
     flat.data[i] = celd_encode_level (order.level[labels.data[i] - 1], order.levels, settings);
   if (status == CELD_OK)
-    status = celd_expand_levels (&ink, &flat, NULL, NULL, CELD_EXPANSION_OUTLINES, NULL, &levels);
+    status = celd_expand_levels (&ink, NULL, &flat, NULL, NULL, CELD_EXPANSION_OUTLINES, NULL, &levels);
   celd_order_clear (&order);
   return status;
 }

@@ -119,7 +119,7 @@ make_next (void)
   CHECK (celd_labels_paint (&next.labels, &palette, &next.painted) == CELD_OK);
   for (int i = 0; i < PIXELS; i++)
     next.flat.data[i] = celd_order_value (&order, order.level[next.labels.data[i] - 1], &settings);
-  CHECK (celd_expand_levels (&later_ink[1], &next.flat, &next.labels, NULL, settings.expansion, NULL, &next.levels) ==
+  CHECK (celd_expand_levels (&later_ink[1], NULL, &next.flat, &next.labels, NULL, settings.expansion, NULL, &next.levels) ==
          CELD_OK);
   CHECK (celd_smooth (&later_ink[1], NULL, &next.levels, NULL, &settings, NULL, &next.depth, NULL) == CELD_OK);
   celd_order_clear (&order);

@@ -53,7 +53,7 @@ own_the_page (const CeldLabels *strokes, CeldOwnership *own)
   own->under = (CeldLabels) { WIDTH, HEIGHT, WIDTH, malloc (PIXELS * sizeof (uint32_t)) };
   own->coverage = (CeldPlane) { WIDTH, HEIGHT, WIDTH, malloc (PIXELS * sizeof (float)) };
   CHECK (celd_order (&labels, &palette, &relations, &ink, NULL, NULL, &order, NULL) == CELD_OK);
-  CHECK (celd_own (&ink, &labels, order.level, order.n, strokes, CELD_EXPANSION_OUTLINES, NULL, own) == CELD_OK);
+  CHECK (celd_own (&ink, NULL, &labels, order.level, order.n, strokes, CELD_EXPANSION_OUTLINES, NULL, own) == CELD_OK);
   celd_order_clear (&order);
 }
 

@@ -352,14 +352,14 @@ levels_are_expanded_as_ranks (void)
       levels.data[i] = odd[ranks.data[i]];
     }
   CHECK (celd_expand (&ink, &ranks, NULL, &ranks) == CELD_OK);
-  CHECK (celd_expand_levels (&ink, &levels, NULL, NULL, CELD_EXPANSION_THICKNESS, NULL, &expanded) == CELD_OK);
+  CHECK (celd_expand_levels (&ink, NULL, &levels, NULL, NULL, CELD_EXPANSION_THICKNESS, NULL, &expanded) == CELD_OK);
   for (int i = 0; i < 30; i++)
     CHECK (expanded.data[i] == level[ranks.data[i]]);
   /* in place, too */
-  CHECK (celd_expand_levels (&ink, &levels, NULL, NULL, CELD_EXPANSION_THICKNESS, NULL, &levels) == CELD_OK);
+  CHECK (celd_expand_levels (&ink, NULL, &levels, NULL, NULL, CELD_EXPANSION_THICKNESS, NULL, &levels) == CELD_OK);
   CHECK (!memcmp (levels.data, expanded.data, 30 * sizeof (float)));
   levels.width = 9;
-  CHECK (celd_expand_levels (&ink, &levels, NULL, NULL, CELD_EXPANSION_THICKNESS, NULL, &expanded) == CELD_BAD_SIZE);
+  CHECK (celd_expand_levels (&ink, NULL, &levels, NULL, NULL, CELD_EXPANSION_THICKNESS, NULL, &expanded) == CELD_BAD_SIZE);
   free (ink.data), free (levels.data), free (expanded.data), free (ranks.data);
 }
 

@@ -14,14 +14,15 @@ enum { WIDTH = 300, HEIGHT = 230, LABELS = 12, EDITS = 45, BLACK_X = 20, BLACK_Y
 typedef struct
 {
   Blobs      blobs;
+  CeldPaint  colours;
   CeldLabels corrections;
-  bool       corrected;
+  bool       tinted, corrected;
   uint32_t   level[LABELS];
   size_t     n;
 } Page;
 
 static void
-page_new (uint32_t *seed, Page *page)
+page_new (uint32_t *seed, bool tinted, Page *page)
 {
   blobs_new (WIDTH, HEIGHT, &page->blobs);
   for (int k = 0; k < 7; k++)
@@ -36,6 +37,8 @@ page_new (uint32_t *seed, Page *page)
   for (int y = 0; y < 60; y++) /* grey paper, of which neighbours have a part */
     for (int x = 220; x < WIDTH; x++)
       CELD_AT (&page->blobs.ink, x, y) = 0.6f + 0.1f * (float) check_random (seed, 4);
+  page->tinted  = tinted;
+  page->colours = blobs_paint (&page->blobs, blobs_fill, blobs_shade);
   CHECK (celd_labels_new (WIDTH, HEIGHT, &page->corrections) == CELD_OK);
   page->corrected = false;
   page->n         = page->blobs.n + 1; /* one label has no pixels */
@@ -47,6 +50,7 @@ static void
 page_free (Page *page)
 {
   blobs_free (&page->blobs);
+  celd_free (page->colours.data);
   celd_free (page->corrections.data);
 }
 
@@ -154,8 +158,8 @@ change_number (uint32_t *seed, Page *page)
 static CeldOwnershipInput
 input_of (const Page *page)
 {
-  return (CeldOwnershipInput) { &page->blobs.ink, &page->blobs.labels, page->corrected ? &page->corrections : NULL,
-                             page->level, page->n };
+  return (CeldOwnershipInput) { &page->blobs.ink, page->tinted ? &page->colours : NULL, &page->blobs.labels,
+                                page->corrected ? &page->corrections : NULL, page->level, page->n };
 }
 
 static bool
@@ -175,7 +179,7 @@ check_record (const Page *page, const CeldOwnership *own, const CeldOwnership *o
   int                wrong = 0;
 
   CHECK (celd_ownership_new (WIDTH, HEIGHT, &whole) == CELD_OK);
-  CHECK (celd_own (in.ink, in.labels, in.level, in.n, in.corrections, CELD_EXPANSION_OUTLINES, NULL, &whole) ==
+  CHECK (celd_own (in.ink, in.colours, in.labels, in.level, in.n, in.corrections, CELD_EXPANSION_OUTLINES, NULL, &whole) ==
          CELD_OK);
   for (int p = 0; p < WIDTH * HEIGHT; p++)
     {
@@ -198,14 +202,14 @@ copy_record (const CeldOwnership *from, CeldOwnership *to)
 
 /* One page after another edit. */
 static void
-edit_page (uint32_t seed)
+edit_page (uint32_t seed, bool tinted)
 {
   Page               page;
   CeldOwnershipCache kept = { 0 };
   CeldOwnership      own, old;
   CeldOwnershipInput in;
 
-  page_new (&seed, &page);
+  page_new (&seed, tinted, &page);
   CHECK (celd_ownership_new (WIDTH, HEIGHT, &own) == CELD_OK && celd_ownership_new (WIDTH, HEIGHT, &old) == CELD_OK);
   in = input_of (&page);
   CHECK (celd_ownership_cache_make (&in, NULL, &kept, &own) == CELD_OK);
@@ -239,7 +243,10 @@ updates_equal_computation_from_scratch (void)
   static const uint32_t seeds[] = { 1, 2, 3, 4, 15 }; /* in the last a line comes round a corner */
 
   for (size_t i = 0; i < sizeof seeds / sizeof *seeds && !check_bad; i++)
-    edit_page (seeds[i] * 7919);
+    {
+      edit_page (seeds[i] * 7919, false);
+      edit_page (seeds[i] * 7919, true);
+    }
 }
 
 /* ------------------------------------------------------------------ in a session */
@@ -345,7 +352,7 @@ cancelled_edits_do_no_harm (void)
   CeldOwnershipInput in;
   CeldRect           changed;
 
-  page_new (&seed, &page);
+  page_new (&seed, false, &page);
   CHECK (celd_ownership_new (WIDTH, HEIGHT, &own) == CELD_OK && celd_ownership_new (WIDTH, HEIGHT, &old) == CELD_OK);
   in = input_of (&page);
   CHECK (celd_ownership_cache_make (&in, NULL, &kept, &own) == CELD_OK);

@@ -18,7 +18,7 @@ own_blobs (uint32_t seed, double pen, double vary, CeldExpansion method)
   for (int k = 0; k < 7; k++)
     blobs_add (&b, &seed, pen, vary);
   CHECK (celd_ownership_new (side, side, &own) == CELD_OK);
-  CHECK (celd_own (&b.ink, &b.labels, b.level, b.n, NULL, method, NULL, &own) == CELD_OK);
+  CHECK (celd_own (&b.ink, NULL, &b.labels, b.level, b.n, NULL, method, NULL, &own) == CELD_OK);
   score = blobs_score (&b, &own);
   celd_ownership_clear (&own);
   blobs_free (&b);
@@ -92,7 +92,7 @@ score_sheets (Blobs *b)
   double        score;
 
   CHECK (celd_ownership_new (b->ink.width, b->ink.height, &own) == CELD_OK);
-  CHECK (celd_own (&b->ink, &b->labels, b->level, b->n, NULL, CELD_EXPANSION_OUTLINES, NULL, &own) == CELD_OK);
+  CHECK (celd_own (&b->ink, NULL, &b->labels, b->level, b->n, NULL, CELD_EXPANSION_OUTLINES, NULL, &own) == CELD_OK);
   score = blobs_score (b, &own);
   celd_ownership_clear (&own);
   blobs_free (b);
@@ -209,7 +209,7 @@ a_line_that_leaves_an_outline_is_no_tip (void)
         CELD_AT (&ink, x, y)    = !(head && line);
         CELD_AT (&labels, x, y) = !head ? 1 : x < 68 ? 3 : 2;
       }
-  CHECK (celd_own (&ink, &labels, level, 3, NULL, CELD_EXPANSION_OUTLINES, NULL, &own) == CELD_OK);
+  CHECK (celd_own (&ink, NULL, &labels, level, 3, NULL, CELD_EXPANSION_OUTLINES, NULL, &own) == CELD_OK);
   for (int y = 96; y < 170; y++) /* they part at 93 */
     for (int x = 28; x < 150; x++)
       wrong += CELD_AT (&own.owner, x, y) != (x < 72 ? 3 : 2);
@@ -238,7 +238,7 @@ expect (const char *const *rows, const char *const *wanted, CeldExpansion method
       labels.data[p] = labels.data[p] ? labels.data[p] : 1;
     }
   CHECK (celd_ownership_new (ink.width, ink.height, &own) == CELD_OK);
-  CHECK (celd_own (&ink, &labels, level, 26, NULL, method, NULL, &own) == CELD_OK);
+  CHECK (celd_own (&ink, NULL, &labels, level, 26, NULL, method, NULL, &own) == CELD_OK);
   CHECK (!memcmp (own.owner.data, owners.data, (size_t) (ink.width * ink.height) * sizeof (uint32_t)));
   for (int p = 0; p < ink.width * ink.height; p++)
     CHECK (own.under.data[p] == own.owner.data[p] && own.coverage.data[p] == 1);
@@ -296,7 +296,7 @@ a_line_inside_keeps_its_ink_beside_an_outline (void)
             CELD_AT (&ink, x, y)    = !(head && line);
             CELD_AT (&labels, x, y) = !head ? 1 : x < 68 ? 3 : 2;
           }
-      CHECK (celd_own (&ink, &labels, level, 3, NULL, CELD_EXPANSION_OUTLINES, NULL, &own) == CELD_OK);
+      CHECK (celd_own (&ink, NULL, &labels, level, 3, NULL, CELD_EXPANSION_OUTLINES, NULL, &own) == CELD_OK);
       for (int y = 40; y < 120; y++)
         for (int x = 28; x < 150; x++)
           wrong += CELD_AT (&own.owner, x, y) != (x < 72 ? 3 : 2);
@@ -326,7 +326,7 @@ a_black_patch_keeps_its_ink (void)
       }
   for (int method = 0; method < 2; method++)
     {
-      CHECK (celd_own (&ink, &labels, level, 3, NULL, (CeldExpansion) method, NULL, &own) == CELD_OK);
+      CHECK (celd_own (&ink, NULL, &labels, level, 3, NULL, (CeldExpansion) method, NULL, &own) == CELD_OK);
       CHECK (CELD_AT (&own.owner, 12, 9) == 3 && CELD_AT (&own.owner, 18, 9) == 3 && CELD_AT (&own.owner, 26, 9) == 2);
     }
   celd_ownership_clear (&own);
@@ -356,7 +356,7 @@ specks_of_paper_claim_no_ink (void)
             CELD_AT (&labels, x, y) = x >= 35 ? 3 : y < 24 ? 1 : 2;
             CELD_AT (&ink, x, y)    = !((y >= 20 && y < 30 && x < 30) || (x >= 30 && x < 40)) || speck;
           }
-      CHECK (celd_own (&ink, &labels, level, 3, NULL, CELD_EXPANSION_OUTLINES, NULL, &own) == CELD_OK);
+      CHECK (celd_own (&ink, NULL, &labels, level, 3, NULL, CELD_EXPANSION_OUTLINES, NULL, &own) == CELD_OK);
       for (int y = 0; y < 50; y++)
         for (int x = 0; x < 60; x++)
           CHECK (x == 29 || CELD_AT (&own.owner, x, y) == (x >= 30 ? 3 : y < 20 ? 1 : 2)); /* 29: beside the crossing */
@@ -383,7 +383,7 @@ antialiased_pixels_have_two_labels (void)
         CELD_AT (&ink, x, y)    = x == 4 ? 0.75f : x == 5 || x == 6 ? 0 : x == 7 ? 0.25f : 1;
         CELD_AT (&labels, x, y) = x < 6 ? 1 : 2;
       }
-  CHECK (celd_own (&ink, &labels, level, 2, NULL, CELD_EXPANSION_OUTLINES, NULL, &own) == CELD_OK);
+  CHECK (celd_own (&ink, NULL, &labels, level, 2, NULL, CELD_EXPANSION_OUTLINES, NULL, &own) == CELD_OK);
   CHECK (CELD_AT (&own.owner, 3, 4) == 1 && CELD_AT (&own.coverage, 3, 4) == 1);
   CHECK (CELD_AT (&own.owner, 4, 4) == 2 && CELD_AT (&own.under, 4, 4) == 1);
   NEAR (CELD_AT (&own.coverage, 4, 4), 0.25, 1e-6);
@@ -414,7 +414,7 @@ corrections_reassign_a_piece_of_line (void)
   CELD_AT (&dots, 8, 19) = 1;
   for (int method = 0; method < 2; method++)
     {
-      CHECK (celd_own (&ink, &labels, level, 3, &dots, (CeldExpansion) method, NULL, &own) == CELD_OK);
+      CHECK (celd_own (&ink, NULL, &labels, level, 3, &dots, (CeldExpansion) method, NULL, &own) == CELD_OK);
       CHECK (CELD_AT (&own.owner, 3, 20) == 1 && CELD_AT (&own.owner, 20, 19) == 1);
       CHECK (CELD_AT (&own.owner, 20, 20) == 1 && CELD_AT (&own.owner, 29, 5) == 3);
       CHECK (CELD_AT (&own.owner, 29, 35) == 3 && CELD_AT (&own.owner, 30, 20) == 3);
@@ -455,8 +455,8 @@ the_result_may_alias_the_labels (void)
           ink.data[p]   *= first && !check_random (&r, 9) ? 0 : 1;
         }
       memcpy (place.owner.data, labels.data, bytes);
-      CHECK (celd_own (&ink, &labels, level, 4, NULL, (CeldExpansion) (seed % 2), NULL, &own) == CELD_OK);
-      CHECK (celd_own (&ink, &place.owner, level, 4, NULL, (CeldExpansion) (seed % 2), NULL, &place) == CELD_OK);
+      CHECK (celd_own (&ink, NULL, &labels, level, 4, NULL, (CeldExpansion) (seed % 2), NULL, &own) == CELD_OK);
+      CHECK (celd_own (&ink, NULL, &place.owner, level, 4, NULL, (CeldExpansion) (seed % 2), NULL, &place) == CELD_OK);
       CHECK (!memcmp (place.owner.data, own.owner.data, bytes) && !memcmp (place.under.data, own.under.data, bytes));
     }
   celd_ownership_clear (&own);
@@ -485,7 +485,7 @@ paper_keeps_its_label (void)
           ink.data[p]    = 0.01f * (float) check_random (&r, 101);
           labels.data[p] = 1 + (p && check_random (&r, 4) ? labels.data[p - 1] - 1 : check_random (&r, 4));
         }
-      CHECK (celd_own (&ink, &labels, level, 4, NULL, (CeldExpansion) (seed % 2), NULL, &own) == CELD_OK);
+      CHECK (celd_own (&ink, NULL, &labels, level, 4, NULL, (CeldExpansion) (seed % 2), NULL, &own) == CELD_OK);
       for (int p = 0; p < w * h; p++)
         {
           uint32_t more = own.coverage.data[p] >= 0.5f ? own.owner.data[p] : own.under.data[p];
@@ -513,11 +513,11 @@ bad_input_does_no_harm (void)
   CHECK (celd_labels_new (4, 5, &other) == CELD_OK && celd_ownership_new (5, 4, &own) == CELD_OK);
   for (int p = 0; p < 20; p++)
     ink.data[p] = 0;
-  CHECK (celd_own (&ink, &labels, level, 1, NULL, CELD_EXPANSION_OUTLINES, NULL, &own) == CELD_BAD_VALUE);
-  CHECK (celd_own (&ink, &other, level, 1, NULL, CELD_EXPANSION_OUTLINES, NULL, &own) == CELD_BAD_SIZE);
+  CHECK (celd_own (&ink, NULL, &labels, level, 1, NULL, CELD_EXPANSION_OUTLINES, NULL, &own) == CELD_BAD_VALUE);
+  CHECK (celd_own (&ink, NULL, &other, level, 1, NULL, CELD_EXPANSION_OUTLINES, NULL, &own) == CELD_BAD_SIZE);
   for (int p = 0; p < 20; p++)
     labels.data[p] = 1;
-  CHECK (celd_own (&ink, &labels, level, 1, NULL, CELD_EXPANSION_OUTLINES, NULL, &own) == CELD_OK);
+  CHECK (celd_own (&ink, NULL, &labels, level, 1, NULL, CELD_EXPANSION_OUTLINES, NULL, &own) == CELD_OK);
   CHECK (own.owner.data[7] == 1 && own.under.data[7] == 1 && own.coverage.data[7] == 1); /* ink alone */
   celd_ownership_clear (&own);
   celd_free (ink.data);

@@ -70,7 +70,7 @@ make (Page *p, const CeldSettings *s)
   CeldPlane  ink = plane_of (p, p->ink), levels = plane_of (p, p->level);
   CeldLabels regions = { p->width, p->height, (size_t) p->width, p->region };
 
-  CHECK (celd_level_ownership_new (&ink, &levels, &regions, NULL, s->expansion, NULL, &p->made) == CELD_OK);
+  CHECK (celd_level_ownership_new (&ink, NULL, &levels, &regions, NULL, s->expansion, NULL, &p->made) == CELD_OK);
   CHECK (celd_level_sheets (&p->made, &ink, s, NULL, &p->sheets) == CELD_OK);
   CHECK (celd_parts_new (p->sheets, &p->made.own, &ink, NULL, s, NULL, &p->parts) == CELD_OK);
 }
