@@ -123,7 +123,7 @@ is_antialiased (const SpriteColours *s)
 static bool
 is_line (const SpriteColour *c)
 {
-  return c->edges && 4 * (size_t) c->lighter >= 3 * (size_t) c->edges && 2 * (size_t) c->inner < c->pixels;
+  return c->edges && 4 * (size_t) c->lighter >= 3 * (size_t) c->edges && 20 * (size_t) c->inner < 11 * (size_t) c->pixels;
 }
 
 /* Has a fiftieth of the picture hues, and is not paper, the commonest colour? */

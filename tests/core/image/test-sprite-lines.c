@@ -90,6 +90,26 @@ areas_in_the_colour_of_lines_are_fills (void)
   CHECK (luma_of[30][30] >= 1 && luma_of[26][26] >= 1 && luma_of[2][10] <= 0);
 }
 
+/* Outlines of four pixels, each in a darker shade of its box: half of their pixels have neighbours of one colour alone. */
+static void
+broad_outlines_have_several_colours (void)
+{
+  static const Rgb fill[2] = { { 250, 190, 60 }, { 90, 160, 70 } }, line[2] = { { 100, 76, 24 }, { 36, 64, 28 } };
+  int              wrong = 0;
+
+  box (0, 0, SIDE, SIDE, sky);
+  for (int k = 0; k < 2; k++)
+    {
+      box (3 + 10 * k, 3 + 12 * k, 22, 20, line[k]);
+      box (7 + 10 * k, 7 + 12 * k, 14, 12, fill[k]);
+    }
+  find (CELD_INK_AUTO);
+  for (int y = 0; y < SIDE; y++)
+    for (int x = 0; x < SIDE; x++)
+      wrong += (luma_of[y][x] <= 0) != (!memcmp (art_of[y][x], line[0], 3) || !memcmp (art_of[y][x], line[1], 3));
+  NEAR (wrong, 0, 0);
+}
+
 /* Brown lines on cream with antialiased sides are line art, though in three colours. */
 static void
 antialiased_lines_make_no_sprite (void)
@@ -124,6 +144,7 @@ main (void)
 {
   RUN (narrow_fills_between_lines_are_fills);
   RUN (areas_in_the_colour_of_lines_are_fills);
+  RUN (broad_outlines_have_several_colours);
   RUN (antialiased_lines_make_no_sprite);
   RUN (greys_are_fills);
   return DONE;
