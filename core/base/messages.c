@@ -225,6 +225,12 @@ celd_problem_text (const CeldProblem *p, const CeldPalette *palette, const CeldR
                                                     "again with a brush that is more opaque, or erase it.")),
                 p->x, p->y);
       break;
+    case CELD_PROBLEM_STROKE_UNMATCHED:
+      snprintf (text, size, celd_in (translate, N_ ("The stroke at (%d, %d) changes nothing, because hardly anything "
+                                                    "on its layer has the colour of a region. Paint corrections and "
+                                                    "hidden parts in the colours of the scribbles.")),
+                p->x, p->y);
+      break;
     }
 }
 

@@ -77,7 +77,9 @@ typedef enum
   CELD_PROBLEM_NOT_CONVERGED,      /* the error of smooth depth is larger than the tolerance */
   CELD_PROBLEM_REGION_SPLIT,       /* label `other`, round (x,y), was split off `label` to resolve a contradiction */
   CELD_PROBLEM_HIDDEN_UNSURE,      /* what is hidden of `label`, round (x,y), is hardly more than a guess */
-  CELD_PROBLEM_STROKE_FAINT        /* the scribble or arrow at (x,y) is too faint to be read; left out */
+  CELD_PROBLEM_STROKE_FAINT,       /* the scribble or arrow at (x,y) is too faint to be read; left out */
+  CELD_PROBLEM_STROKE_UNMATCHED    /* hardly any stroke of its layer, corrections or what is hidden, has the colour of a
+                                    * region: the one at (x,y) has none */
 } CeldProblemKind;
 
 /* Why a painted arrow is unclear. */

@@ -13,6 +13,7 @@
  *   scribbles.c          all steps of reading scribbles: fringes, and the palette
  *   paint-kinds.c        what a layer can be by its colours
  *   mix-ups.c            drawing and scribbles exchanged, or a copy of one given as the other
+ *   unmatched-strokes.c  corrections and hidden strokes in colours that no region has
  *   contours.c           virtual contours painted into a drawing
  *   contour-ends.c       joins their open ends to what is near
  *   arrow-layer.c        how opaque the pixels of an arrows layer are; relations painted as one
@@ -65,6 +66,8 @@
 #include <math.h>
 
 /* ------------------------------------------------------------------ scribbles */
+
+#define CELD_CLEAR_HUE 64 /* of 255: difference of the channels of a clear colour; chosen */
 
 /* paint-kinds.c: whether a picture that is not empty is grey, as inks are; whether it is strokes in several clear colours
  * on a blank page. */
@@ -154,6 +157,10 @@ celd_distance_to_mixtures (const int *paper, const int *paint, const int *colour
 /* faint-strokes.c: appends CELD_PROBLEM_STROKE_FAINT for each stroke of a layer with alpha that has some, but is nowhere
  * as opaque as `least`, from which on paint is read. */
 CeldStatus celd_faint_strokes_find (const CeldPaint *layer, int least, CeldProblems *problems);
+
+/* unmatched-strokes.c: appends CELD_PROBLEM_STROKE_UNMATCHED if a layer of corrections or of what is hidden has paint,
+ * and hardly any of it was read. */
+CeldStatus celd_unmatched_strokes_find (const CeldPaint *layer, const CeldLabels *read, CeldProblems *problems);
 
 /* The same: is a pixel visible, but neither opaque nor at the rim of opaque paint? */
 bool celd_paint_is_faint (const CeldPaint *layer, int visible, int opaque, int x, int y);

@@ -5,6 +5,7 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
+#include "input/input.h"
 #include "ownership/ownership.h"
 #include "session/session.h"
 
@@ -48,7 +49,7 @@ celd_make_unexpanded (CeldSession *s, const CeldHost *host)
 
 /* Reads the labels of the corrections layer; labels->data stays NULL without such a layer. */
 static CeldStatus
-read_corrections (const CeldSession *s, CeldLabels *labels)
+read_corrections (CeldSession *s, CeldLabels *labels)
 {
   const CeldPaint *paint = &s->corrections;
   CeldStatus       status = CELD_OK;
@@ -57,6 +58,9 @@ read_corrections (const CeldSession *s, CeldLabels *labels)
     status = celd_labels_new (paint->width, paint->height, labels);
   if (status == CELD_OK && paint->data)
     status = celd_corrections_read (paint, &s->palette, labels);
+  celd_problems_clear (&s->problems[STAGE_OWNERSHIP]);
+  if (status == CELD_OK && paint->data)
+    status = celd_unmatched_strokes_find (paint, labels, &s->problems[STAGE_OWNERSHIP]);
   return status;
 }
 

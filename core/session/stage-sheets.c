@@ -2,6 +2,7 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
+#include "input/input.h"
 #include "session/session.h"
 #include "sheets/sheets.h"
 
@@ -47,8 +48,9 @@ changed_hints (const CeldLabels *old, const CeldLabels *new)
 CeldStatus
 celd_make_sheets (CeldSession *s, const CeldHost *host)
 {
-  CeldLabels hints = { 0 };
-  CeldStatus status = read_hints (s, &hints);
+  CeldLabels   hints = { 0 };
+  CeldProblems problems = { 0 };
+  CeldStatus   status = read_hints (s, &hints);
 
   if (status == CELD_OK)
     {
@@ -57,6 +59,10 @@ celd_make_sheets (CeldSession *s, const CeldHost *host)
       status = celd_sheets_update (celd_session_depth_ink (s), &s->ownership, hints.data ? &hints : NULL, changed,
                                    &s->order, background_label (s), &s->settings, host, &s->sheets);
     }
+  if (status == CELD_OK && hints.data)
+    status = celd_unmatched_strokes_find (&s->hidden, &hints, &problems);
+  if (status == CELD_OK)
+    status = celd_sheet_problems (s->sheets, &problems);
   if (status == CELD_OK)
     {
       celd_free (s->sheet_hints.data);
@@ -64,8 +70,10 @@ celd_make_sheets (CeldSession *s, const CeldHost *host)
       s->changed_sheets = (CeldRect) { 0 };
       hints             = (CeldLabels) { 0 };
       celd_problems_clear (&s->problems[STAGE_SHEETS]);
-      status = celd_sheet_problems (s->sheets, &s->problems[STAGE_SHEETS]);
+      s->problems[STAGE_SHEETS] = problems;
+      problems                  = (CeldProblems) { 0 };
     }
+  celd_problems_clear (&problems);
   celd_free (hints.data);
   return status;
 }

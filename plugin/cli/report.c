@@ -243,6 +243,7 @@ add_problem (JsonBuilder *json, const CliReport *report, const CeldProblem *prob
   static const char *kinds[] = {
     "stroke-overruled", "region-unreached", "colour-lost", "arrow-unclear", "outside", "unknown-colour", "same-region",
     "contradiction", "not-converged", "region-split", "hidden-unsure", "stroke-faint",
+    "stroke-unmatched",
   };
   static const char *reasons[] = {
     [CELD_REASON_SHORT] = "short", [CELD_REASON_ALIKE] = "alike", [CELD_REASON_HEAD] = "head",

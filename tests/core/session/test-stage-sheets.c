@@ -21,14 +21,15 @@ same_sheet (const CeldSheet *a, const CeldSheet *b)
   return same;
 }
 
-/* What is said of sheets. */
+/* What is said of sheets and of hidden strokes. */
 static bool
 same_problems (const CeldProblems *a, const CeldProblems *b)
 {
   bool same = a->n == b->n;
 
   for (size_t i = 0; i < a->n && same; i++)
-    same = a->item[i].kind == CELD_PROBLEM_HIDDEN_UNSURE && b->item[i].kind == a->item[i].kind &&
+    same = (a->item[i].kind == CELD_PROBLEM_HIDDEN_UNSURE || a->item[i].kind == CELD_PROBLEM_STROKE_UNMATCHED) &&
+           b->item[i].kind == a->item[i].kind &&
            a->item[i].label == b->item[i].label && a->item[i].x == b->item[i].x && a->item[i].y == b->item[i].y;
   return same;
 }
