@@ -50,12 +50,21 @@ CELD_API bool celd_ink_has_lines (const CeldPlane *ink);
 CELD_API CeldStatus celd_contours_bake (const CeldDrawing *drawing, const CeldPaint *contours, CeldPurpose purpose,
                                         CeldInkMode mode, const CeldHost *host, CeldDrawing *out);
 
-/* Whether a layer can be scribbles: strokes in flat colours on a blank layer, or on scanned paper; no photograph
- * can. */
+/* Whether a layer can be scribbles, or other strokes: in flat colours on a blank layer, or on scanned paper; no
+ * photograph can. */
 CELD_API bool celd_are_scribbles (const CeldPaint *paint);
+/* Whether nearly all strokes of a layer are arrows with heads, at least two: scribbles are not. */
+CELD_API CeldStatus celd_are_arrows (const CeldPaint *paint, const CeldHost *host, bool *are);
 /* Whether scribbles may be a drawing, so that it makes sense to compare both: they are grey, or have lines that part
  * the page. */
 CELD_API CeldStatus celd_may_be_drawing (const CeldPaint *scribbles, bool *may_be);
+
+/* Whether a layer has the lines of the drawing, by its ink, as the drawing itself has them, also shaded or coloured.
+ * Strokes in clear colours are none. */
+CELD_API CeldStatus celd_layer_has_lines (const CeldPaint *layer, const CeldPlane *ink, bool *has);
+
+/* Whether a picture is a copy of another one, perhaps stored with loss. */
+CELD_API CeldStatus celd_is_copy (const CeldPaint *a, const CeldPaint *b, bool *copy);
 
 /* Whether the drawing and the scribbles, which may be a drawing, are what they were given for, or exchanged, or the
  * same picture. */
@@ -66,11 +75,13 @@ CELD_API CeldStatus celd_mix_up (const CeldPaint *drawing, const CeldPaint *scri
  * not. */
 CELD_API bool celd_paint_is_coloured (const CeldPaint *paint);
 
-/* Whether labels of flat colours, finite levels, and finite depth, smooth or flat, can be such: no photograph with grain or
+/* Whether labels of flat colours, and finite levels or depth, flat or smooth, can be such: no photograph with grain or
  * texture can.  For hosts, as those above. */
 CELD_API bool celd_are_labels (const CeldLabels *labels, const CeldPalette *palette);
 CELD_API bool celd_are_levels (const CeldPlane *levels);
-CELD_API bool celd_is_depth (const CeldPlane *depth);
+/* Whether finite levels or depth have the lines of their drawing, its ink or its brightness, dark between both sides,
+ * as the drawing itself has them, shaded or coloured.  Levels have them as parts of their sides. */
+CELD_API CeldStatus celd_levels_have_lines (const CeldPlane *levels, const CeldPlane *drawing, bool *have);
 
 /* Reads painted scribbles: seed labels (0 where nothing is painted), and the palette of their colours, of origin
  * CELD_FROM_SCRIBBLE, by decreasing painted area.  Pixels with alpha below one half count as not painted, and in a

@@ -185,6 +185,12 @@ CeldStatus celd_signed_distance (const CeldPlane *ink, const CeldHost *host, int
  * if nothing is known, all becomes 0. */
 CeldStatus celd_extend (int width, int height, int lanes, uint8_t *known, float *value);
 
+/* ------------------------------------------------------------------ flat-pictures.c */
+
+/* Whether a picture has the lines of a drawing, its ink or its brightness: whether it is darker there than on both
+ * sides, by a tenth of a range from `least` on. */
+CeldStatus celd_find_lines (const CeldPlane *plane, float least, float range, const CeldPlane *drawing, bool *have);
+
 /* ------------------------------------------------------------------ morphology.c: with square windows */
 
 /* How many bytes of work space the functions below need for this radius, and for smaller ones. */

@@ -27,6 +27,8 @@
 #define FADED_OPACITY 16   /* of a fading stroke's paint */
 #define MOST_REMNANT  150  /* pixels of a piece of a thin or faint end, ... */
 #define BREAK         7    /* ... and how far it may be from the rest */
+#define FEW_ARROWS    2    /* at least, in a layer of arrows; a single stroke tells too little */
+#define NOT_ARROWS    4    /* of their strokes at most 1 / this are none (measured: of scribbles all are none) */
 
 /* ------------------------------------------------------------------ all components */
 
@@ -194,6 +196,55 @@ read_components (Components *s, const CeldArrowLayer *layer, CeldArrowStyle styl
       if (status == CELD_OK)
         status = celd_progress (host, (double) done / (double) all);
     }
+  return status;
+}
+
+/* Of the components that are strokes counts those that are arrows with heads, until it is plain that too few are.  Those
+ * that cross are counted as none, since looking for crossings takes far longer. */
+static CeldStatus
+count_arrows (Components *s, const CeldHost *host, size_t *arrows, size_t *strokes)
+{
+  CeldStatus status = CELD_OK;
+  size_t     done = 0, other = 0;
+
+  *arrows = *strokes = 0;
+  for (size_t k = 0; k < s->n; k++)
+    *strokes += s->component[k].area >= CELD_LEAST_STROKE;
+  for (size_t k = 0; k < s->n && status == CELD_OK && NOT_ARROWS * other <= *strokes; k++)
+    {
+      CeldArrowEnds ends;
+      bool          headed;
+
+      s->stroke.pixel = s->pixel + done;
+      s->stroke.n     = s->component[k].area;
+      done += s->stroke.n;
+      if (s->stroke.n < CELD_LEAST_STROKE)
+        continue;
+      headed = celd_arrowhead (&s->stroke, false, &ends) == CELD_REASON_NONE;
+      *arrows += headed;
+      other += !headed;
+      status = celd_progress (host, (double) (k + 1) / (double) s->n);
+    }
+  return status;
+}
+
+CeldStatus
+celd_are_arrows (const CeldPaint *paint, const CeldHost *host, bool *are)
+{
+  Components     components = { 0 };
+  CeldArrowLayer layer;
+  size_t         arrows = 0, strokes = 0;
+  CeldStatus     status = CELD_SAME_SIZE (paint, paint) ? celd_arrow_layer_new (paint, &layer) : CELD_BAD_SIZE;
+
+  if (status == CELD_OK)
+    status = find_components (&layer, CELD_ARROW_HEAD, host, &components);
+  if (status == CELD_OK)
+    status = gather_pixels (&components);
+  if (status == CELD_OK)
+    status = count_arrows (&components, host, &arrows, &strokes);
+  components_clear (&components);
+  if (status == CELD_OK)
+    *are = arrows >= FEW_ARROWS && NOT_ARROWS * (strokes - arrows) <= strokes;
   return status;
 }
 

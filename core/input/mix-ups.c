@@ -1,4 +1,4 @@
-/* Layers that were mixed up: the drawing exchanged with its scribbles, or a copy of it given as scribbles.
+/* Layers that were mixed up: the drawing exchanged with its scribbles, or it, or a copy of it, given as a layer.
  *
  * The lines of a drawing part its page into rooms, while strokes leave it in one piece.  Lines are what is dark in the
  * lightest channel, as black, brown and dark shades are; strokes of clear colours are as light there as paper.  On a
@@ -12,6 +12,7 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "base/base.h"
+#include "image/image.h"
 #include "input/input.h"
 
 #include <stdlib.h>
@@ -156,14 +157,50 @@ compare (const CeldPaint *a, const CeldPaint *b, bool darkest, bool *same)
   return status;
 }
 
-static CeldStatus
-are_same (const CeldPaint *a, const CeldPaint *b, bool *same)
+CeldStatus
+celd_is_copy (const CeldPaint *a, const CeldPaint *b, bool *same)
 {
   CeldStatus status;
 
   *same = a->width == b->width && a->height == b->height;
   status = *same ? compare (a, b, false, same) : CELD_OK;
   return status == CELD_OK && *same ? compare (a, b, true, same) : status;
+}
+
+/* ------------------------------------------------------------------ lines in a layer */
+
+/* How light a pixel is on white paper, as lines go: clear colours are none. */
+static float
+lightness_of_line (const uint8_t *p)
+{
+  int most = p[0] > p[1] ? p[0] : p[1], least = p[0] < p[1] ? p[0] : p[1];
+
+  most  = p[2] > most ? p[2] : most;
+  least = p[2] < least ? p[2] : least;
+  return p[3] < 128 || most - least >= CELD_CLEAR_HUE ? 1 : (float) most / 255;
+}
+
+CeldStatus
+celd_layer_has_lines (const CeldPaint *layer, const CeldPlane *ink, bool *has)
+{
+  CeldPlane  plane = { 0 };
+  bool       drawn = false;
+  CeldStatus status;
+
+  if (!CELD_SAME_SIZE (layer, ink))
+    return CELD_BAD_SIZE;
+  status = celd_may_be_drawing (layer, &drawn);
+  if (status == CELD_OK && drawn)
+    status = celd_plane_new (layer->width, layer->height, &plane);
+  for (int y = 0; plane.data && y < layer->height; y++)
+    for (int x = 0; x < layer->width; x++)
+      CELD_AT (&plane, x, y) = lightness_of_line (CELD_RGBA (layer, x, y));
+  if (status == CELD_OK && drawn)
+    status = celd_find_lines (&plane, 0, 1, ink, &drawn);
+  if (status == CELD_OK)
+    *has = drawn;
+  celd_free (plane.data);
+  return status;
 }
 
 /* ------------------------------------------------------------------ what was mixed up */
@@ -201,7 +238,7 @@ CeldStatus
 celd_mix_up (const CeldPaint *drawing, const CeldPaint *scribbles, CeldMixUp *mix_up)
 {
   bool       same = false, exchanged = false;
-  CeldStatus status = are_same (drawing, scribbles, &same);
+  CeldStatus status = celd_is_copy (drawing, scribbles, &same);
 
   if (status == CELD_OK && !same && !celd_is_grey (drawing))
     status = compare_rooms (drawing, scribbles, &exchanged);

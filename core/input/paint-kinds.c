@@ -2,7 +2,8 @@
  * exchanged, colours in place of levels.
  *
  * Scribbles are told by their flat colours: neighbours that are equal are 0.88 of all pixels at least, in a photograph
- * less than 0.36; or if they are scanned by their blank page.
+ * less than 0.42; or if they are scanned by their blank page.  A grey picture of which most is dark, such as the sky at
+ * night, is none.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -10,10 +11,12 @@
 
 #include <string.h>
 
-#define TELLING_SIDE  64   /* pixels; smaller pictures tell too little; chosen */
+#define TELLING_SIDE 64   /* pixels; smaller layers tell too little, but for opaque ones; chosen */
+#define SMALL_SIDE   32   /* pixels; smaller pictures tell too little (measured: soft strokes are half of them) */
 #define LEAST_FLAT  0.5  /* the share of equal neighbours in scribbles, at least (measured, see above) */
 #define LEAST_BLANK 0.6  /* the share of the commonest colour in scribbles on scanned paper, at least; chosen */
-#define CLEAR_HUE   64   /* of 255: difference of the channels of a clear colour; chosen */
+#define SMALL_BLANK 0.5  /* the same in small pictures (measured: 0.58) */
+#define LIGHT_STEP  6    /* of 8 steps of a channel: paper is as light; chosen */
 #define FAINT_HUE   12   /* of 255: of what is not grey, more than JPEG makes; chosen */
 #define WHITE       230  /* of 255: channels of paper are larger; chosen */
 
@@ -42,9 +45,9 @@ flat_share (const CeldPaint *paint)
   return (double) flat / ((double) (paint->width - 1) * (paint->height - 1));
 }
 
-/* The share of the commonest colour, of 8 steps a channel. */
+/* The share of the commonest colour, of 8 steps a channel; and whether that is transparent, or light as paper. */
 static double
-blank_share (const CeldPaint *paint)
+blank_share (const CeldPaint *paint, bool *light)
 {
   size_t count[512] = { 0 }, most = 0;
 
@@ -54,16 +57,36 @@ blank_share (const CeldPaint *paint)
         const uint8_t *p = CELD_RGBA (paint, x, y);
         size_t        *of = &count[p[3] ? (p[0] >> 5) << 6 | (p[1] >> 5) << 3 | p[2] >> 5 : 511];
 
-        most = ++*of > most ? *of : most;
+        if (++*of > most)
+          {
+            most   = *of;
+            *light = of == &count[511] || p[1] >> 5 >= LIGHT_STEP;
+          }
       }
   return (double) most / ((double) paint->width * paint->height);
+}
+
+static bool
+is_opaque (const CeldPaint *paint)
+{
+  for (int y = 0; y < paint->height; y++)
+    for (int x = 0; x < paint->width; x++)
+      if (CELD_RGBA (paint, x, y)[3] < 255)
+        return false;
+  return true;
 }
 
 bool
 celd_are_scribbles (const CeldPaint *paint)
 {
-  return paint->width < TELLING_SIDE || paint->height < TELLING_SIDE || flat_share (paint) >= LEAST_FLAT ||
-         blank_share (paint) >= LEAST_BLANK;
+  int    side = paint->width < paint->height ? paint->width : paint->height;
+  bool   small = side < TELLING_SIDE, light;
+  double blank;
+
+  if (side < SMALL_SIDE || flat_share (paint) >= LEAST_FLAT || (small && !is_opaque (paint)))
+    return true;
+  blank = blank_share (paint, &light);
+  return blank >= (small ? SMALL_BLANK : LEAST_BLANK) && (light || !celd_is_grey (paint));
 }
 
 /* ------------------------------------------------------------------ grey or coloured */
@@ -121,7 +144,7 @@ celd_is_coloured_strokes (const CeldPaint *paint)
         if (p[3] < 128 || (p[0] > WHITE && p[1] > WHITE && p[2] > WHITE))
           continue;
         painted++;
-        if (hue_of (p) < CLEAR_HUE)
+        if (hue_of (p) < CELD_CLEAR_HUE)
           continue;
         clear++;
         of[(p[0] >= p[1]) + (p[1] >= p[2]) + 3 * (p[0] >= p[2])]++;

@@ -274,21 +274,35 @@ bool cli_layer_read (const char *path, const char *role, CliLayers *layers, Celd
  * first part. */
 bool cli_art_read (const char *input, const char *path, bool linear, CliLayers *layers, CeldColours *art);
 
-/* ------------------------------------------------------------------ input-checks.c */
+/* ------------------------------------------------------------------ input-checks.c, photograph.c */
 
 /* All print why and what to do instead if they are false. */
 bool cli_check_different_files (const CliOptions *options);                  /* each layer has its own file */
 bool cli_check_not_mixed_up    (const CliOptions *options, CliLayers *layers); /* the drawing and the scribbles */
 bool cli_check_lines           (const char *path, const CeldPlane *ink);     /* there is ink, and paper */
 bool cli_check_drawing         (const char *path, const CeldDrawing *drawing, bool quiet); /* no photograph */
-bool cli_check_scribbles       (const char *path, const CeldPaint *scribbles); /* no photograph */
-bool cli_check_grey            (const char *path);                           /* of depth or levels */
+bool cli_check_scribbles       (const char *path, const CeldPaint *scribbles); /* no photograph, no arrows */
+bool cli_check_strokes         (const char *path, const char *role, const CeldPaint *paint); /* no photograph */
+bool cli_check_no_drawings     (const CliOptions *options, const CliLayers *layers, const CeldPlane *ink);
 bool cli_check_numbers         (const char *path, const CeldPlane *values);  /* all are finite */
 bool cli_check_colours         (const char *path, int width, int height, const float *rgba); /* where they are seen */
-bool cli_check_levels          (const char *path, const CeldPlane *levels);  /* no photograph */
-bool cli_check_depth           (const char *path, const CeldPlane *depth);   /* no photograph */
-bool cli_check_regions         (const char *path, const CeldLabels *regions, const CeldPalette *palette);
-void cli_warn_if_flat          (const char *path, const CeldPlane *levels);  /* that all levels are the same */
+
+/* ------------------------------------------------------------------ level-checks.c */
+
+/* These, too. */
+bool cli_check_grey     (const char *path);                           /* of depth or levels */
+bool cli_check_levels   (const char *path, const CeldPlane *levels);  /* no photograph */
+bool cli_check_depth    (const char *path, const CeldPlane *depth);   /* no photograph */
+bool cli_check_regions  (const char *path, const CeldLabels *regions, const CeldPalette *palette); /* no photograph */
+/* That regions are not the drawing; warns of those that have its lines, too. */
+bool cli_check_regions_of (const char *path, const CeldLabels *regions, const CeldPalette *palette, const char *drawing,
+                           const CeldPlane *ink, bool quiet);
+/* That levels or depth have not the lines of a drawing, by its ink or brightness; the second one only warns of that. */
+bool cli_check_no_lines (const char *path, const CeldPlane *levels, const char *drawing, const CeldPlane *ink);
+bool cli_warn_of_lines  (const char *path, const CeldPlane *levels, const char *drawing, const CeldPlane *ink);
+bool cli_check_not_art  (const char *path, const char *art);          /* that levels are no copy of the art */
+bool cli_check_hint     (const char *path, const CeldPlane *depth, bool quiet); /* not blank; warns of photographs */
+void cli_warn_if_flat   (const char *path, const CeldPlane *levels);  /* that all levels are the same */
 
 /* ------------------------------------------------------------------ read-file.c */
 
@@ -373,6 +387,8 @@ bool cli_step_begin (const CliOptions *options, CliStep *step);
 const CeldPlane *cli_step_borders (const CliStep *step);
 /* The colours that the drawing was painted in; NULL if it is grey. */
 const CeldPaint *cli_step_colours (const CliStep *step);
+/* Reads the regions that the options name; free data with g_free. */
+bool cli_step_regions (const CliOptions *options, CliStep *step, CeldLabels *regions, CeldPalette *palette);
 /* The exit code. */
 int  cli_step_end   (CliStep *step, bool good);
 

@@ -23,6 +23,7 @@ read_painted (const CliOptions *options, CliLayers *layers, CliRun *run, CeldHan
   CeldPaint      paint = { 0 };
   CeldProblems   problems = { 0 };
   bool           good = cli_layer_read (options->handles_layer, "handles", layers, &paint) &&
+                        cli_check_strokes (options->handles_layer, "handles-layer", &paint) &&
                         cli_run_finish (run, celd_handles_read (&paint, style, &run->host, handles, &problems));
 
   if (good && !options->quiet)

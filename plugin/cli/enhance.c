@@ -4,6 +4,24 @@
  */
 #include "cli.h"
 
+/* Whether the levels have not the lines of the art, as shaded art has them. */
+static bool
+check_lines_of_art (const CliOptions *options, const CeldPlane *levels, const CeldColours *art)
+{
+  CeldPlane brightness;
+  bool      good = cli_plane_new (art->width, art->height, &brightness);
+
+  for (size_t i = 0; good && i < (size_t) art->width * (size_t) art->height; i++)
+    {
+      const float *p = &art->data[4 * i];
+
+      brightness.data[i] = 1 - p[3] * (1 - (p[0] + p[1] + p[2]) / 3);
+    }
+  good = good && cli_check_no_lines (options->input, levels, options->colours, &brightness);
+  g_free (brightness.data);
+  return good;
+}
+
 static bool
 read_art (const CliOptions *options, const CeldPlane *levels, CeldColours *art)
 {
@@ -11,10 +29,10 @@ read_art (const CliOptions *options, const CeldPlane *levels, CeldColours *art)
     return true;
   if (!cli_read_colours (options->colours, art))
     return false;
-  return (art->width == levels->width && art->height == levels->height) ||
-         cli_error ("\"%s\" has %d x %d pixels, but \"%s\" has %d x %d; give both the same size.", options->colours,
-                    art->width, art->height, options->input, levels->width,
-                    levels->height);
+  if (art->width != levels->width || art->height != levels->height)
+    return cli_error ("\"%s\" has %d x %d pixels, but \"%s\" has %d x %d; give both the same size.", options->colours,
+                      art->width, art->height, options->input, levels->width, levels->height);
+  return cli_check_not_art (options->input, options->colours) && check_lines_of_art (options, levels, art);
 }
 
 bool

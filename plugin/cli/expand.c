@@ -11,7 +11,7 @@ run_expand (const CliOptions *options)
   CeldLabels  regions = { 0 };
   CeldPalette palette = { 0 };
   bool        good = cli_step_begin (options, &step) &&
-                     (!options->regions || cli_regions_read (options->regions, &step.layers, &regions, &palette));
+                     (!options->regions || cli_step_regions (options, &step, &regions, &palette));
 
   if (good)
     {

@@ -1,5 +1,5 @@
-/* Input that is something else than it was given for: a picture given twice, drawing and scribbles exchanged, a page
- * without lines, colours or a photograph in place of levels.  Each is refused, with a message that says what to do.
+/* Input that is something else than it was given for: a picture given twice, drawing and scribbles exchanged, a drawing
+ * in place of a layer, a page without lines.  Each is refused, with a message that says what to do.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -96,6 +96,49 @@ cli_check_not_mixed_up (const CliOptions *options, CliLayers *layers)
                        "colours."), options->input, options->scribbles);
 }
 
+/* ------------------------------------------------------------------ a drawing in place of a layer */
+
+/* Scribbles may be the fills of a coloured drawing with its lines, which regions can be found by. */
+static bool
+check_scribbles (const CliOptions *options, const CliLayers *layers, const CeldPlane *ink)
+{
+  const char *path = options->scribbles ? options->scribbles : options->input;
+  bool        have = false;
+
+  if (!layers->scribbles.data)
+    return true;
+  if (!cli_check (celd_layer_has_lines (&layers->scribbles, ink, &have)))
+    return false;
+  if (have && !celd_paint_is_coloured (&layers->scribbles))
+    return cli_error (_ ("\"%s\" has the lines of the drawing, and no colours: give a picture of the strokes alone as "
+                         "scribbles."), path);
+  if (have && !options->quiet)
+    cli_say (_ ("\"%s\" has the lines of the drawing, too: give the strokes alone as scribbles, or use --flats if each "
+                "part has a flat colour of its own."), path);
+  return true;
+}
+
+bool
+cli_check_no_drawings (const CliOptions *options, const CliLayers *layers, const CeldPlane *ink)
+{
+  const struct { const char *path; const CeldPaint *paint; } layer[] = {
+    { options->arrows, &layers->arrows }, { options->contours, &layers->contours },
+    { options->corrections, &layers->corrections }, { options->hidden, &layers->hidden },
+  };
+  bool good = check_scribbles (options, layers, ink);
+
+  for (size_t i = 0; good && i < G_N_ELEMENTS (layer); i++)
+    {
+      bool have = false;
+
+      good = !layer[i].paint->data || cli_check (celd_layer_has_lines (layer[i].paint, ink, &have));
+      if (have)
+        good = cli_error (_ ("\"%s\" has the lines of the drawing: give a layer with the strokes alone."),
+                          layer[i].path ? layer[i].path : options->input);
+    }
+  return good;
+}
+
 /* ------------------------------------------------------------------ no lines */
 
 bool
@@ -135,58 +178,4 @@ cli_check_colours (const char *path, int width, int height, const float *rgba)
           (rgba[3] > 0 && !(isfinite (rgba[0]) && isfinite (rgba[1]) && isfinite (rgba[2]))))
         return refuse_value (path, x, y);
   return true;
-}
-
-/* ------------------------------------------------------------------ levels */
-
-bool
-cli_check_grey (const char *path)
-{
-  CeldPaint   picture = { 0 };
-  CeldIoError error;
-  CeldIoFile *file = cli_is_npy (path) ? NULL : celd_io_open (path, &error);
-  bool        colours = file && !celd_io_part (file, 0)->grey;
-  bool        good = !colours || cli_read_paint (file, 0, path, &picture);
-
-  celd_io_close (file);
-  if (good && picture.data && celd_paint_is_coloured (&picture))
-    good = cli_error ("\"%s\" is coloured, but depth and levels are grey, as popup writes them with --levels or "
-                      "--depth.", path);
-  g_free (picture.data);
-  return good;
-}
-
-bool
-cli_check_regions (const char *path, const CeldLabels *regions, const CeldPalette *palette)
-{
-  return celd_are_labels (regions, palette) ||
-         cli_error ("\"%s\" looks like a photograph: regions are flat colours, as segment writes them with "
-                    "--labels.", path);
-}
-
-bool
-cli_check_levels (const char *path, const CeldPlane *levels)
-{
-  return celd_are_levels (levels) ||
-         cli_error ("\"%s\" looks like a photograph: levels have one value for each part, as popup writes them with "
-                    "--levels.", path);
-}
-
-bool
-cli_check_depth (const char *path, const CeldPlane *depth)
-{
-  return celd_is_depth (depth) ||
-         cli_error ("\"%s\" looks like a photograph: depth is flat or smooth in each part, as popup writes it with "
-                    "--depth.", path);
-}
-
-void
-cli_warn_if_flat (const char *path, const CeldPlane *levels)
-{
-  size_t n = (size_t) levels->width * (size_t) levels->height, i = 1;
-
-  while (i < n && !(fabsf (levels->data[i] - levels->data[0]) > 0))
-    i++;
-  if (i == n)
-    cli_say ("\"%s\" has the same value everywhere, so that nothing lies in front of anything.", path);
 }

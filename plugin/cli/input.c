@@ -229,6 +229,10 @@ cli_layers_read (const char *input, const CliOptions *options, CliRoles wanted, 
   for (size_t i = 1; good && i < G_N_ELEMENTS (roles); i++)
     if (wanted & roles[i].role && path_of (options, roles[i].role))
       good = cli_layer_read (path_of (options, roles[i].role), roles[i].name, layers, paint_of (layers, roles[i].role));
+  for (size_t i = 1; good && i < G_N_ELEMENTS (roles); i++)
+    if (roles[i].role != CLI_SCRIBBLES && paint_of (layers, roles[i].role)->data)
+      good = cli_check_strokes (path_of (options, roles[i].role) ? path_of (options, roles[i].role) : input,
+                                roles[i].name, paint_of (layers, roles[i].role));
   return good;
 }
 

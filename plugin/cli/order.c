@@ -28,12 +28,18 @@ load_ordering (const CliOptions *options, Ordering *o)
                        cli_check_text (celd_arrow_path_parse (path, &o->relations, &error), "--arrow-path", &error) &&
                        cli_regions_read (options->input, &o->layers, &o->labels, &o->palette) &&
                        cli_layers_read (options->drawing, options, CLI_ARROWS | CLI_CONTOURS, &o->layers) &&
-                       (!options->depth_hint || cli_hint_read (options->depth_hint, &o->layers, &o->hint));
+                       (!options->depth_hint ||
+                        (cli_hint_read (options->depth_hint, &o->layers, &o->hint) &&
+                         cli_check_hint (options->depth_hint, &o->hint, options->quiet)));
 
   g_free (text);
   return good && (!options->drawing ||
                   (cli_make_ink (&o->layers, CELD_FOR_SEGMENTATION, options, &o->run, &o->ink) &&
-                   cli_check_lines (options->drawing, &o->ink)));
+                   cli_check_lines (options->drawing, &o->ink) &&
+                   cli_check_regions_of (options->input, &o->labels, &o->palette, options->drawing, &o->ink,
+                                         options->quiet) &&
+                   (!o->hint.data || options->quiet ||
+                    cli_warn_of_lines (options->depth_hint, &o->hint, options->drawing, &o->ink))));
 }
 
 static CeldStatus

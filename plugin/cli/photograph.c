@@ -1,4 +1,5 @@
-/* A photograph in place of a drawing or of scribbles: refused, or warned about.
+/* A photograph in place of a drawing or of a layer of strokes, or arrows in place of scribbles: refused, or warned
+ * about.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -26,7 +27,20 @@ cli_check_drawing (const char *path, const CeldDrawing *drawing, bool quiet)
 bool
 cli_check_scribbles (const char *path, const CeldPaint *scribbles)
 {
-  return celd_are_scribbles (scribbles) ||
-         cli_error (_ ("\"%s\" looks like a photograph: scribbles are strokes in flat colours on a blank layer."),
-                    path);
+  bool arrows = false;
+
+  if (!celd_are_scribbles (scribbles))
+    return cli_error (_ ("\"%s\" looks like a photograph: scribbles are strokes in flat colours on a blank layer."),
+                      path);
+  return cli_check (celd_are_arrows (scribbles, NULL, &arrows)) &&
+         (!arrows || cli_error (_ ("\"%s\" looks like arrows: give it with --arrows, and as scribbles a stroke in a "
+                                   "colour of its own over each part."), path));
+}
+
+bool
+cli_check_strokes (const char *path, const char *role, const CeldPaint *paint)
+{
+  return celd_are_scribbles (paint) ||
+         cli_error (_ ("\"%s\" looks like a photograph: what is given with --%s are strokes on a blank layer."),
+                    path, role);
 }

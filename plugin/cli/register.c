@@ -83,15 +83,19 @@ lattice_of_levels (Registration *r)
   CeldLabels  regions = { 0 };
   CeldPalette palette = { 0 };
   bool        good = cli_read_levels (r->options->source_levels, &levels) &&
+                     cli_check_levels (r->options->source_levels, &levels) &&
                      (!r->options->regions ||
-                      cli_regions_read (r->options->regions, &r->source, &regions, &palette));
+                      (cli_regions_read (r->options->regions, &r->source, &regions, &palette) &&
+                       cli_check_regions_of (r->options->regions, &regions, &palette, r->options->input, &r->ink[0],
+                                             r->options->quiet)));
 
   cli_run_stage (&r->run, "lattice");
   if (good && (levels.width != r->source.width || levels.height != r->source.height))
     good = cli_error ("\"%s\" has %d x %d pixels, but \"%s\" has %d x %d; give both the same size.",
                       r->options->source_levels, levels.width, levels.height, r->options->input, r->source.width,
                       r->source.height);
-  good = good && check_moved (r, celd_lattice_of_levels (&r->ink[0], &levels, regions.data ? &regions : NULL,
+  good = good && cli_check_no_lines (r->options->source_levels, &levels, r->options->input, &r->ink[0]) &&
+         check_moved (r, celd_lattice_of_levels (&r->ink[0], &levels, regions.data ? &regions : NULL,
                                                          &r->options->settings, &r->run.host, &r->lattice));
   g_free (levels.data);
   g_free (regions.data);

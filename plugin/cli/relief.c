@@ -73,15 +73,19 @@ write_relief (const CliOptions *options, const CeldRelief *relief, const CeldCol
 
 /* Reads smooth depth if it is given. */
 static bool
-read_depth (const CliOptions *options, const CeldPlane *levels, CeldPlane *depth)
+read_depth (const CliOptions *options, const CliStep *step, CeldPlane *depth)
 {
+  const CeldPlane *levels = &step->levels;
+
   if (!options->smooth_depth)
     return true;
   if (!cli_read_levels (options->smooth_depth, depth) || !cli_check_depth (options->smooth_depth, depth))
     return false;
-  return (depth->width == levels->width && depth->height == levels->height) ||
-         cli_error ("\"%s\" has %d x %d pixels, but \"%s\" has %d x %d; give both the same size.",
-                    options->smooth_depth, depth->width, depth->height, options->input, levels->width, levels->height);
+  if (depth->width != levels->width || depth->height != levels->height)
+    return cli_error ("\"%s\" has %d x %d pixels, but \"%s\" has %d x %d; give both the same size.",
+                      options->smooth_depth, depth->width, depth->height, options->input, levels->width,
+                      levels->height);
+  return cli_check_no_lines (options->smooth_depth, depth, options->drawing, &step->ink);
 }
 
 static bool
@@ -89,7 +93,7 @@ relief_of_levels (const CliOptions *options, const CeldColours *art, CliStep *st
 {
   CeldPlane  depth = { 0 };
   CeldRelief relief = { 0 };
-  bool       good = read_depth (options, &step->levels, &depth);
+  bool       good = read_depth (options, step, &depth);
 
   if (good)
     {
@@ -111,7 +115,7 @@ model_of_levels (const CliOptions *options, const CeldColours *art, CliStep *ste
   CeldPalette palette = { 0 };
   CeldModel   model = { 0 };
   CeldStatus  status;
-  bool        good = !options->regions || cli_regions_read (options->regions, &step->layers, &regions, &palette);
+  bool        good = !options->regions || cli_step_regions (options, step, &regions, &palette);
 
   if (good)
     {

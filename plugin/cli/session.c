@@ -7,10 +7,14 @@
 static bool
 load_hint (CeldSession *session, const CliOptions *options, const CliLayers *layers)
 {
-  CeldPlane hint = { 0 };
+  CeldPlane hint = { 0 }, ink;
   bool      good = cli_hint_read (options->depth_hint, layers, &hint) &&
+                   cli_check_hint (options->depth_hint, &hint, options->quiet) &&
                    cli_check (celd_session_set_depth_hint (session, &hint));
 
+  if (good && !options->quiet)
+    good = cli_check (celd_session_ink (session, NULL, &ink, NULL)) &&
+           cli_warn_of_lines (options->depth_hint, &hint, options->input, &ink);
   g_free (hint.data);
   return good;
 }
@@ -47,11 +51,12 @@ cli_session_load (CeldSession *session, const CliOptions *options, CliLayers *la
          load_layer (session, &layers->scribbles, celd_session_set_scribbles) &&
          load_layer (session, &layers->arrows, celd_session_set_arrows) &&
          load_layer (session, &layers->contours, celd_session_set_contours) &&
-         (!options->depth_hint || load_hint (session, options, layers)) &&
          load_layer (session, &layers->corrections, celd_session_set_corrections) &&
          load_layer (session, &layers->hidden, celd_session_set_hidden);
   if (good && !options->settings.flats)
-    good = cli_check (celd_session_ink (session, NULL, &ink, NULL)) && cli_check_lines (options->input, &ink);
+    good = cli_check (celd_session_ink (session, NULL, &ink, NULL)) && cli_check_lines (options->input, &ink) &&
+           cli_check_no_drawings (options, layers, &ink);
+  good = good && (!options->depth_hint || load_hint (session, options, layers));
   g_free (text);
   return good;
 }

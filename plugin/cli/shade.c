@@ -48,7 +48,8 @@ read_depth (const CliOptions *options, Shade *s)
 static bool
 read_hints (const CliOptions *options, Shade *s)
 {
-  return !options->hints || cli_layer_read (options->hints, "hints", &s->layers, &s->hints);
+  return !options->hints || (cli_layer_read (options->hints, "hints", &s->layers, &s->hints) &&
+                             cli_check_strokes (options->hints, "hints", &s->hints));
 }
 
 /* Reads the art to light: that of --colours, or else the drawing. */
@@ -259,6 +260,22 @@ write_all (const CliOptions *options, Shade *s)
          (!options->maps || cli_maps_write (options->maps, &s->maps));
 }
 
+/* Whether levels and depth are no drawings; warns of hints that look like one, since paint may cover all lines. */
+static bool
+check_no_drawings (const CliOptions *options, const Shade *s)
+{
+  bool drawn = false;
+
+  if (!cli_check_no_lines (options->input, &s->levels, options->drawing, &s->ink) ||
+      (s->depth.data && !cli_check_no_lines (options->smooth_depth, &s->depth, options->drawing, &s->ink)) ||
+      (s->hints.data && !cli_check (celd_layer_has_lines (&s->hints, &s->ink, &drawn))))
+    return false;
+  if (drawn && !options->quiet)
+    cli_say ("\"%s\" has the lines of \"%s\", as if it were the drawing: hints are paint beside lines.", options->hints,
+             options->drawing);
+  return true;
+}
+
 static int
 run_shade (const CliOptions *options)
 {
@@ -269,6 +286,7 @@ run_shade (const CliOptions *options)
   cli_run_begin (&run, options, "reading shade writing");
   good = read_all (options, &s) && new_results (options, &s) && shade_cells (options, &run, &s) &&
          cli_check_lines (options->drawing, &s.ink) &&
+         check_no_drawings (options, &s) &&
          write_all (options, &s);
   clear (&s);
   cli_run_end (&run);

@@ -13,6 +13,7 @@ read_anchors (const CliOptions *options, CliLayers *layers, CeldMask *anchors)
   CeldPalette palette = { 0 };
   size_t      n = (size_t) layers->width * (size_t) layers->height;
   bool        good = cli_layer_read (options->scribbles, "scribbles", layers, &paint) &&
+                     cli_check_scribbles (options->scribbles, &paint) &&
                      cli_labels_new (paint.width, paint.height, &seeds) &&
                      cli_check (celd_scribbles_read (&paint, &options->settings, NULL, &seeds, &palette));
 

@@ -31,6 +31,15 @@ cli_nearest_level (const CeldPlane *levels)
   return nearest;
 }
 
+/* Lines of levels before expansion may have the level of none of their sides: expansion does not look at them. */
+static bool
+check_no_lines (const CliOptions *options, const CliStep *step)
+{
+  if (options->step != CLI_EXPAND)
+    return cli_check_no_lines (options->input, &step->levels, options->drawing, &step->ink);
+  return options->quiet || cli_warn_of_lines (options->input, &step->levels, options->drawing, &step->ink);
+}
+
 bool
 cli_step_begin (const CliOptions *options, CliStep *step)
 {
@@ -44,7 +53,7 @@ cli_step_begin (const CliOptions *options, CliStep *step)
   step->layers.height = step->levels.height;
   return cli_layers_read (options->drawing, options, CLI_CONTOURS, &step->layers) &&
          cli_make_ink (&step->layers, CELD_FOR_DEPTH, options, &step->run, &step->ink) &&
-         cli_check_lines (options->drawing, &step->ink) &&
+         cli_check_lines (options->drawing, &step->ink) && check_no_lines (options, step) &&
          (!step->layers.contours.data ||
           cli_make_ink (&step->layers, CELD_FOR_SEGMENTATION, options, &step->run, &step->borders));
 }
@@ -72,6 +81,13 @@ cli_regions_read (const char *path, CliLayers *layers, CeldLabels *regions, Celd
 
   g_free (paint.data);
   return good;
+}
+
+bool
+cli_step_regions (const CliOptions *options, CliStep *step, CeldLabels *regions, CeldPalette *palette)
+{
+  return cli_regions_read (options->regions, &step->layers, regions, palette) &&
+         cli_check_regions_of (options->regions, regions, palette, options->drawing, &step->ink, options->quiet);
 }
 
 int

@@ -16,7 +16,7 @@ import zlib
 import numpy as np
 from PIL import Image, ImageDraw, ImageOps, TiffImagePlugin
 
-from pictures import (COMMAND, HEIGHT, IN_A, IN_B, IN_PAGE, RED, RELATIONS, WIDTH, Test, at, drawing, scribbles, write_exr,
+from pictures import (BLUE, COMMAND, HEIGHT, IN_A, IN_B, IN_PAGE, RED, RELATIONS, WIDTH, Test, at, drawing, scribbles, write_exr,
                       write_ora, write_psd)
 
 
@@ -503,6 +503,153 @@ class Nonsense(Test):
         self.fails('order', 'photo.png', '--unexpanded-levels', 'l.png', naming='looks like a photograph')
 
 
+    def shade(self):
+        """A page with its drawing shaded and coloured: shaded.png, grey.png, coloured.png; and a copy of the drawing."""
+        self.popup('--relations', RELATIONS, '--labels', 'labels.png', '--levels', 'levels.npy', '--shaded', 'shaded.png')
+        ink = np.asarray(drawing(), float)[..., None] / 255
+        coloured = ink * self.picture('labels.png')[..., :3]
+        Image.fromarray(coloured.astype(np.uint8)).save(self.path('coloured.png'))
+        Image.open(self.path('shaded.png')).convert('L').save(self.path('grey.png'))
+        drawing().convert('RGB').save(self.path('copy.jpg'), quality=90)
+
+    def test_drawings_as_layers(self):
+        """The drawing itself, shaded or coloured, is no layer of strokes."""
+        self.shade()
+        for name in ('grey.png', 'coloured.png', 'copy.jpg'):
+            for command, *words in (('popup', '--corrections', name, '--depth', 'd.png'),
+                                    ('popup', '--arrows', name, '--depth', 'd.png'),
+                                    ('layers', '--hidden', name, '--complete', 'yes', '--output', 'l.ora')):
+                self.fails(command, 'drawing.png', '--scribbles', 'scribbles.png', *words,
+                           naming=f'"{name}" has the lines of the drawing: give a layer with the strokes alone')
+        self.fails('segment', 'drawing.png', '--scribbles', 'scribbles.png', '--contours', 'grey.png', '--labels', 'l.png',
+                   naming='"grey.png" has the lines of the drawing: give a layer with the strokes alone')
+        words = 'segment', 'drawing.png', '--labels', 'l.png', '--scribbles'
+        self.fails(*words, 'grey.png', naming='"grey.png" has the lines of the drawing, and no colours')
+        self.assertIn('"coloured.png" has the lines of the drawing, too: ', self.celdepth(*words, 'coloured.png'))
+        self.assertNotIn('lines', self.celdepth(*words, 'coloured.png', '--quiet'))
+
+    def test_drawings_as_levels(self):
+        """Those of single steps, and what is given beside them; expansion does not look at lines."""
+        self.shade()
+        of_drawing = '--drawing', 'drawing.png'
+        for name in ('grey.png', 'copy.jpg'):
+            says = f'"{name}" has the lines of "drawing.png": levels and depth'
+            for command, *words in (('smooth', '--depth', 'd.png'), ('shade', '--shading', 's.png'),
+                                    ('relief', '--height', 'h.png')):
+                self.fails(command, name, *of_drawing, *words, naming=says)
+            for command, *words in (('shade', '--shading', 's.png'), ('relief', '--height', 'h.png')):
+                self.fails(command, 'levels.npy', *of_drawing, '--smooth-depth', name, *words, naming=says)
+            self.fails('register', 'drawing.png', 'drawing.png', '--source-levels', name, '--displacement', 'o.npy',
+                       naming=says)
+            self.assertIn(f'"{name}" has the lines of "drawing.png", as if it were a drawing',
+                          self.celdepth('expand', name, *of_drawing, '--levels', 'l.npy'))
+        self.assertIn('"grey.png" has the lines of "drawing.png"', self.celdepth(
+            'shade', 'levels.npy', *of_drawing, '--hints', 'grey.png', '--shading', 's.png'))
+        np.save(self.path('photo.npy'), np.random.default_rng(2).random((HEIGHT, WIDTH), np.float32))
+        self.fails('register', 'drawing.png', 'drawing.png', '--source-levels', 'photo.npy', '--displacement', 'o.npy',
+                   naming='"photo.npy" looks like a photograph')
+
+    def test_art_as_levels(self):
+        """The art itself, a copy of it, and other pictures with its lines."""
+        self.shade()
+        words = '--enhanced', 'e.png', '--colours'
+        drawing().save(self.path('art.tif'))
+        self.fails('enhance', 'art.tif', *words, 'art.tif', naming='"art.tif" is the same picture as "art.tif"')
+        self.fails('enhance', 'copy.jpg', *words, 'drawing.png', naming='"copy.jpg" is the same picture as "drawing.png"')
+        self.fails('enhance', 'grey.png', *words, 'drawing.png', naming='"grey.png" has the lines of "drawing.png"')
+        self.fails('enhance', 'drawing.png', *words, 'shaded.png', naming='"drawing.png" has the lines of "shaded.png"')
+        for art in ('drawing.png', 'shaded.png', 'coloured.png'):
+            self.assertEqual(self.celdepth('enhance', 'levels.npy', *words, art), '')
+
+    def test_drawings_as_regions(self):
+        self.shade()
+        for words in (('order', 'NAME', '--unexpanded-levels', 'l.npy'), ('expand', 'levels.npy', '--regions', 'NAME',
+                                                                         '--levels', 'l.npy')):
+            def with_name(name):
+                return [name if word == 'NAME' else word for word in words] + ['--drawing', 'drawing.png']
+            self.fails(*with_name('grey.png'), naming='"grey.png" has the lines of "drawing.png", and no colours')
+            self.assertIn('"coloured.png" has the lines of "drawing.png", too', self.celdepth(*with_name('coloured.png')))
+            self.assertEqual(self.celdepth(*with_name('labels.png')), '')
+
+    def test_arrows_as_scribbles(self):
+        """Two arrows or more, and hardly anything else."""
+        def paint(name, arrows, lines):
+            layer = Image.new('RGBA', (WIDTH, HEIGHT))
+            draw = ImageDraw.Draw(layer)
+            for i in range(arrows):
+                x = 12 + 22 * i
+                draw.line([(x, 50), (x, 14)], fill=(255, 128, 0, 255), width=2)
+                draw.line([(x - 6, 21), (x, 14), (x + 6, 21)], fill=(255, 128, 0, 255), width=2)
+            for i in range(lines):
+                draw.line([(10, 58 + 4 * i), (80, 58 + 4 * i)], fill=BLUE + (255,), width=2)
+            layer.save(self.path(name))
+
+        says = '"arrows.png" looks like arrows: give it with --arrows'
+        paint('arrows.png', 3, 1)
+        self.fails('segment', 'drawing.png', '--scribbles', 'arrows.png', '--labels', 'l.png', naming=says)
+        self.popup('--relations', RELATIONS, '--levels', 'levels.npy')
+        self.fails('smooth', 'levels.npy', '--drawing', 'drawing.png', '--scribbles', 'arrows.png', '--depth', 'd.png',
+                   naming=says)
+        for arrows, lines in ((1, 0), (2, 1)):
+            paint('arrows.png', arrows, lines)
+            self.celdepth('segment', 'drawing.png', '--scribbles', 'arrows.png', '--labels', 'l.png')
+
+    def test_blank_hints(self):
+        words = 'segment', 'drawing.png', '--scribbles', 'scribbles.png', '--suggestions', 's.txt', '--depth-hint'
+        Image.new('L', (WIDTH, HEIGHT), 99).save(self.path('flat.png'))
+        unseen = np.zeros((HEIGHT, WIDTH, 4), np.uint8)
+        unseen[..., :3] = np.arange(WIDTH)[None, :, None]
+        Image.fromarray(unseen).save(self.path('unseen.png'))
+        for name in ('flat.png', 'unseen.png'):
+            self.fails(*words, name, naming=f'"{name}" is blank, so that it says nothing about depth')
+        self.popup('--labels', 'labels.png')
+        self.fails('order', 'labels.png', '--unexpanded-levels', 'l.npy', '--depth-hint', 'flat.png', naming='is blank')
+
+    def test_odd_hints(self):
+        """Estimators may find much, so that these are only warned about."""
+        self.shade()
+        words = 'segment', 'drawing.png', '--scribbles', 'scribbles.png', '--suggestions', 's.txt', '--depth-hint'
+        Image.fromarray(np.random.default_rng(2).integers(0, 256, (HEIGHT, WIDTH), np.uint8)).save(self.path('photo.png'))
+        self.assertIn('"photo.png" looks like a photograph', self.celdepth(*words, 'photo.png'))
+        self.assertIn('"grey.png" has the lines of "drawing.png"', self.celdepth(*words, 'grey.png'))
+        for name, *quiet in (('photo.png', '--quiet'), ('grey.png', '--quiet'), ('levels.npy',)):
+            self.assertEqual(self.celdepth(*words, name, *quiet), '')
+
+    def test_strokes_that_change_nothing(self):
+        """Corrections and hidden strokes in colours of no region: a warning, with the place."""
+        for name, colour in (('wrong.png', (200, 100, 7)), ('right.png', RED)):
+            layer = Image.new('RGBA', (WIDTH, HEIGHT))
+            ImageDraw.Draw(layer).line([(40, 20), (50, 20)], fill=colour + (255,), width=1)
+            layer.save(self.path(name))
+        Image.new('RGB', (WIDTH, HEIGHT), 'white').save(self.path('blank.png'))
+        of_drawing = '--relations', RELATIONS, '--report', 'report.json'
+
+        def problems(command, *words):
+            text = self.celdepth(command, 'drawing.png', '--scribbles', 'scribbles.png', *of_drawing, *words)
+            with open(self.path('report.json'), encoding='utf-8') as file:
+                found = [problem for problem in json.load(file)['problems'] if problem['kind'] == 'stroke-unmatched']
+            self.assertEqual('changes nothing' in text, bool(found))
+            return [problem['place'] for problem in found]
+
+        for role, *words in (('--corrections', 'popup', '--levels', 'l.npy'),
+                             ('--hidden', 'layers', '--complete', 'yes', '--output', 'l.ora')):
+            for name, places in (('wrong.png', [[40, 20]]), ('right.png', []), ('blank.png', [])):
+                self.assertEqual(problems(*words, role, name), places, (role, name))
+
+    def test_smooth_levels(self):
+        """Levels with slopes, as painted with a soft brush or a gradient, also dithered, are no photographs."""
+        random, (y, x) = np.random.default_rng(6), np.mgrid[:240, :320]
+        levels = 40.0 + x / 3 + 60 * (np.hypot(x - 160, y - 120) < 70)
+        Image.fromarray(np.floor(levels + random.random(levels.shape)).astype(np.uint8)).save(self.path('levels.png'))
+        ring = Image.new('L', (320, 240), 255)
+        ImageDraw.Draw(ring).ellipse((90, 50, 230, 190), outline=0, width=5)
+        ring.save(self.path('ring.png'))
+        for command, *words in (('expand', '--levels', 'l.npy'), ('smooth', '--depth', 'd.npy'), ('shade', '--shading', 's.npy'),
+                                ('relief', '--height', 'h.npy')):
+            self.assertEqual(self.celdepth(command, 'levels.png', '--drawing', 'ring.png', *words), '', command)
+        self.assertEqual(self.celdepth('enhance', 'levels.png', '--view', 'v.png'), '')
+
+
 def photographs():
     """Pictures like photographs: shaded things with grain, the same with a texture, a texture alone, clouds in colours."""
     random, (y, x) = np.random.default_rng(3), np.mgrid[:240, :320]
@@ -549,6 +696,31 @@ class Photographs(Test):
             with self.subTest(name):
                 self.fails('popup', 'ring.png', '--scribbles', f'{name}.png', '--depth', 'd.png',
                            naming=f'"{name}.png" looks like a photograph')
+
+    def test_as_layers(self):
+        """Whatever takes strokes; and grey ones as small as icons as scribbles."""
+        of_ring = 'ring.png', '--scribbles', 'strokes.png'
+        for name in ('shaded', 'textured', 'clouds'):
+            says = f'"{name}.png" looks like a photograph: what is given with '
+            for command, *words in (('popup', '--corrections'), ('popup', '--arrows'), ('popup', '--contours'),
+                                    ('popup', '--hidden')):
+                self.fails(command, *of_ring, '--normals', 'n.png', *words, f'{name}.png', naming=says + words[-1])
+            self.fails('deform', *of_ring, '--handles-layer', f'{name}.png', '--output', 'd.png', naming=says)
+        self.celdepth('popup', *of_ring, '--levels', 'levels.npy')
+        self.fails('shade', 'levels.npy', '--drawing', 'ring.png', '--hints', 'textured.png', '--shading', 's.png',
+                   naming=says[:-1].replace('clouds', 'textured'))
+        ring = Image.open(self.path('ring.png'))
+        ring.resize((52, 40)).save(self.path('icon.png'))
+        for name in ('shaded', 'textured'):
+            Image.open(self.path(f'{name}.png')).convert('L').resize((52, 40)).save(self.path('small.png'))
+            self.fails('segment', 'icon.png', '--ink', 'dark', '--scribbles', 'small.png', '--labels', 'l.png',
+                       naming='"small.png" looks like a photograph')
+
+    def test_as_regions(self):
+        """Also grey ones, which have few colours."""
+        Image.open(self.path('textured.png')).convert('L').save(self.path('grey.png'))
+        for name in ('textured.png', 'grey.png'):
+            self.fails('order', name, '--unexpanded-levels', 'l.npy', naming=f'"{name}" looks like a photograph')
 
     def test_as_drawing_on_purpose(self):
         """Who says what the lines are is believed."""

@@ -55,7 +55,7 @@ grainy_pictures_are_none (void)
   CHECK (!celd_are_levels (&left));
 }
 
-/* Steep on a small page, and in 8 bits; a picture with a little grain on top of it is none. */
+/* Steep on a small page, in 8 bits, and dithered; a picture with a little grain on top of it is none. */
 static void
 smooth_depth_is_depth (void)
 {
@@ -63,20 +63,101 @@ smooth_depth_is_depth (void)
 
   for (int i = 0; i < SIDE * SIDE; i++)
     pixels[i] = roundf (255 * (1 - hypotf ((float) (i % SIDE) - 80, (float) (i / SIDE) - 100) / 160)) / 255;
-  CHECK (celd_is_depth (&depth));
-  CHECK (!celd_are_levels (&depth));
+  CHECK (celd_are_levels (&depth));
+  for (int i = 0; i < SIDE * SIDE; i++)
+    pixels[i] = floorf (255 * (float) (i % SIDE) / SIDE + noise ()) / 255;
+  CHECK (celd_are_levels (&depth));
   for (int i = 0; i < SIDE * SIDE; i++)
     pixels[i] += 0.04f * noise ();
-  CHECK (!celd_is_depth (&depth));
+  CHECK (!celd_are_levels (&depth));
+}
+
+/* Lines of three pixels every 40 part the page into squares, which have levels in turn. */
+static int
+line_at (int x, int y)
+{
+  return x % 40 < 3 || y % 40 < 3;
+}
+
+static float
+level_at (int x, int y)
+{
+  return (float) ((x / 40 + 2 * (y / 40)) % 4 + 1);
+}
+
+static bool
+has_lines (float (*level) (int x, int y), float ink_of_line)
+{
+  static float drawn[SIDE * SIDE];
+  CeldPlane    levels = { SIDE, SIDE, SIDE, pixels }, ink = { SIDE, SIDE, SIDE, drawn };
+  bool         have = false;
+
   for (int i = 0; i < SIDE * SIDE; i++)
-    pixels[i] = (float) (i % SIDE / 20);
-  CHECK (celd_is_depth (&depth));
+    {
+      pixels[i] = level (i % SIDE, i / SIDE);
+      drawn[i] = line_at (i % SIDE, i / SIDE) ? ink_of_line : 1;
+    }
+  CHECK (celd_levels_have_lines (&levels, &ink, &have) == CELD_OK);
+  return have;
+}
+
+static float
+filled (int x, int y)
+{
+  return line_at (x, y) ? 0 : level_at (x, y);
+}
+
+static float
+flat (int x, int y)
+{
+  (void) x;
+  (void) y;
+  return 2;
+}
+
+/* Every third line, as a gap that is seen between nearer parts. */
+static float
+with_gaps (int x, int y)
+{
+  return line_at (x, y) && (x / 40 + y / 40) % 3 == 0 ? 0 : level_at (x, y);
+}
+
+static void
+drawings_have_lines (void)
+{
+  CeldPlane levels = { SIDE, SIDE, SIDE, pixels }, small = { SIDE / 2, SIDE, SIDE, pixels };
+  bool      have = true;
+
+  CHECK (has_lines (filled, 0.2f));
+  CHECK (!has_lines (filled, 1)); /* the drawing has none */
+  CHECK (!has_lines (level_at, 0.2f) && !has_lines (with_gaps, 0.2f) && !has_lines (flat, 0.2f));
+  CHECK (celd_levels_have_lines (&levels, &small, &have) == CELD_BAD_SIZE && have);
+}
+
+/* More than half of the pixels of a picture with many labels differ from one beside them. */
+static void
+labels_are_flat (void)
+{
+  static uint32_t number[SIDE * SIDE];
+  CeldLabels      labels = { SIDE, SIDE, SIDE, number };
+  CeldPalette     palette = { NULL, 64 };
+
+  for (int i = 0; i < SIDE * SIDE; i++)
+    number[i] = (uint32_t) (64 * noise ()) % 64 + 1;
+  CHECK (!celd_are_labels (&labels, &palette));
+  palette.n = 63; /* may be a pattern */
+  CHECK (celd_are_labels (&labels, &palette));
+  for (int i = 0; i < SIDE * SIDE; i++)
+    number[i] = (uint32_t) (i % SIDE / 25 + i / SIDE / 25 * 8) + 1;
+  palette.n = 64;
+  CHECK (celd_are_labels (&labels, &palette));
 }
 
 static void
 labels_have_many_pixels (void)
 {
-  CeldLabels  labels = { 200, 100, 200, NULL };
+  static uint32_t same[20200];
+  CeldLabels  labels = { 200, 100, 200, same };
   CeldPalette palette = { NULL, 999 };
 
   CHECK (celd_are_labels (&labels, &palette));
@@ -95,6 +176,8 @@ main (void)
   RUN (flat_and_smooth_levels_are_levels);
   RUN (grainy_pictures_are_none);
   RUN (smooth_depth_is_depth);
+  RUN (drawings_have_lines);
+  RUN (labels_are_flat);
   RUN (labels_have_many_pixels);
   return DONE;
 }

@@ -211,6 +211,43 @@ bad_input (void)
   free (paint.data);
 }
 
+/* Layers of arrows with heads are told from strokes, of which some may look like arrows, and from a single one. */
+static void
+layers_of_arrows (void)
+{
+  for (int arrows = 0; arrows <= 4; arrows++)
+    {
+      CeldPaint paint = blank (400, 400);
+      bool      are = false;
+
+      for (int i = 0; i < 4; i++)
+        {
+          CeldArrowStyle style = i < arrows ? CELD_ARROW_HEAD : CELD_ARROW_TAPER;
+          Arrow          arrow = through ((Point) { 200, 50 + 100.0 * i }, 0, 120, 0.5, 5, style, false);
+
+          draw_arrow (&paint, &arrow, GREEN);
+        }
+      CHECK (celd_are_arrows (&paint, NULL, &are) == CELD_OK);
+      CHECK (are == (arrows >= 3));
+      free (paint.data);
+    }
+  for (int arrows = 0; arrows <= 2; arrows++)
+    {
+      CeldPaint paint = blank (400, 400);
+      bool      are = true;
+
+      for (int i = 0; i < arrows; i++)
+        {
+          Arrow arrow = through ((Point) { 200, 50 + 100.0 * i }, 0, 120, 0.5, 5, CELD_ARROW_HEAD, false);
+
+          draw_arrow (&paint, &arrow, GREEN);
+        }
+      CHECK (celd_are_arrows (&paint, NULL, &are) == CELD_OK);
+      CHECK (are == (arrows == 2));
+      free (paint.data);
+    }
+}
+
 int
 main (void)
 {
@@ -222,5 +259,6 @@ main (void)
   RUN (blue_arrows_crack);
   RUN (several_strokes);
   RUN (bad_input);
+  RUN (layers_of_arrows);
   return DONE;
 }

@@ -154,6 +154,40 @@ pages_of_any_size (void)
   CHECK (celd_may_be_drawing (&b, &may_be) == CELD_OK && may_be);
 }
 
+/* Whether a layer has the lines of a drawing. */
+static bool
+has_lines (uint8_t *layer)
+{
+  static float ink[SIDE * SIDE];
+  CeldPaint    paint = page (layer);
+  CeldPlane    plane = { SIDE, SIDE, SIDE, ink };
+  bool         has = false;
+
+  for (int i = 0; i < SIDE * SIDE; i++)
+    ink[i] = (i % SIDE + 1) % 40 < 2 || (i / SIDE + 1) % 40 < 2 ? 0 : 1;
+  CHECK (celd_layer_has_lines (&paint, &plane, &has) == CELD_OK);
+  return has;
+}
+
+static void
+layers_with_lines_are_noticed (void)
+{
+  draw_rooms (drawn, black, white, white);
+  CHECK (has_lines (drawn));
+  draw_rooms (drawn, black, yellow, pink);
+  CHECK (has_lines (drawn));
+  draw_rooms (drawn, red, white, white); /* contours may be traced */
+  CHECK (!has_lines (drawn));
+  draw_rooms (drawn, red, nothing, nothing);
+  CHECK (!has_lines (drawn));
+  draw_rooms (drawn, blue, blue, green); /* fills */
+  CHECK (!has_lines (drawn));
+  draw_strokes (drawn, nothing, black, dark_red);
+  CHECK (!has_lines (drawn));
+  draw_strokes (drawn, white, black, black);
+  CHECK (!has_lines (drawn));
+}
+
 int
 main (void)
 {
@@ -162,5 +196,6 @@ main (void)
   RUN (copies_are_noticed);
   RUN (blank_pages_are_no_copies);
   RUN (pages_of_any_size);
+  RUN (layers_with_lines_are_noticed);
   return DONE;
 }

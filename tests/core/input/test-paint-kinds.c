@@ -66,7 +66,7 @@ scribbles (void)
   draw_strokes (reds, 255, 0);
   CHECK (celd_are_scribbles (&paint) && !celd_is_coloured_strokes (&paint)); /* one hue: may be a red pencil */
   draw_photograph ();
-  CHECK (!celd_are_scribbles (&paint) && celd_are_scribbles (&small) && !celd_is_grey (&paint));
+  CHECK (!celd_are_scribbles (&paint) && !celd_are_scribbles (&small) && !celd_is_grey (&paint));
 }
 
 /* Grain on blank paper makes all neighbours differ, but there is one colour. */
@@ -82,6 +82,29 @@ scanned_scribbles (void)
       else
         put (x, y, 226 + (x * 7 + y * 3) % 29, 230 + (x * 5 + y * 7) % 25, 228, 255);
   CHECK (celd_are_scribbles (&paint));
+}
+
+/* Small photographs; and grey ones of which nearly all is of one colour, which is dark. */
+static void
+small_and_dark_photographs (void)
+{
+  CeldPaint paint = layer (SIDE, SIDE), small = layer (40, 32), tiny = layer (40, 31);
+
+  draw_photograph ();
+  CHECK (!celd_are_scribbles (&small) && celd_are_scribbles (&tiny));
+  put (0, 0, 0, 0, 0, 0);
+  CHECK (celd_are_scribbles (&small)); /* soft strokes on a small transparent layer */
+  for (int light = 0; light < 2; light++)
+    {
+      for (int y = 0; y < SIDE; y++)
+        for (int x = 0; x < SIDE; x++)
+          {
+            int grey = (light ? 226 : 34) + (x * 7 + y * 3) % 29;
+
+            put (x, y, grey, grey, grey, 255);
+          }
+      CHECK (celd_are_scribbles (&paint) == light);
+    }
 }
 
 static void
@@ -137,6 +160,7 @@ main (void)
 {
   RUN (scribbles);
   RUN (scanned_scribbles);
+  RUN (small_and_dark_photographs);
   RUN (grey_pictures);
   RUN (fills);
   RUN (colours);

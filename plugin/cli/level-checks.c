@@ -1,0 +1,178 @@
+/* Pictures given as regions, levels or depth that are something else: colours, photographs, drawings, blank pages.
+ * Each is refused, or warned about where it may be meant, with a message that says what to do.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "cli.h"
+
+#include <math.h>
+
+bool
+cli_check_grey (const char *path)
+{
+  CeldPaint   picture = { 0 };
+  CeldIoError error;
+  CeldIoFile *file = cli_is_npy (path) ? NULL : celd_io_open (path, &error);
+  bool        colours = file && !celd_io_part (file, 0)->grey;
+  bool        good = !colours || cli_read_paint (file, 0, path, &picture);
+
+  celd_io_close (file);
+  if (good && picture.data && celd_paint_is_coloured (&picture))
+    good = cli_error ("\"%s\" is coloured, but depth and levels are grey, as popup writes them with --levels or "
+                      "--depth.", path);
+  g_free (picture.data);
+  return good;
+}
+
+bool
+cli_check_regions (const char *path, const CeldLabels *regions, const CeldPalette *palette)
+{
+  return celd_are_labels (regions, palette) ||
+         cli_error ("\"%s\" looks like a photograph: regions are flat colours, as segment writes them with "
+                    "--labels.", path);
+}
+
+bool
+cli_check_levels (const char *path, const CeldPlane *levels)
+{
+  return celd_are_levels (levels) ||
+         cli_error ("\"%s\" looks like a photograph: levels have one value for each part, as popup writes them with "
+                    "--levels.", path);
+}
+
+bool
+cli_check_depth (const char *path, const CeldPlane *depth)
+{
+  return celd_are_levels (depth) ||
+         cli_error ("\"%s\" looks like a photograph: depth is flat or smooth in each part, as popup writes it with "
+                    "--depth.", path);
+}
+
+void
+cli_warn_if_flat (const char *path, const CeldPlane *levels)
+{
+  size_t n = (size_t) levels->width * (size_t) levels->height, i = 1;
+
+  while (i < n && !(fabsf (levels->data[i] - levels->data[0]) > 0))
+    i++;
+  if (i == n)
+    cli_say ("\"%s\" has the same value everywhere, so that nothing lies in front of anything.", path);
+}
+
+/* ------------------------------------------------------------------ drawings */
+
+bool
+cli_check_no_lines (const char *path, const CeldPlane *levels, const char *drawing, const CeldPlane *ink)
+{
+  bool have = false;
+
+  return cli_check (celd_levels_have_lines (levels, ink, &have)) &&
+         (!have || cli_error ("\"%s\" has the lines of \"%s\": levels and depth have the values of parts, also where "
+                              "lines are, as popup writes them with --levels and --depth.", path, drawing));
+}
+
+bool
+cli_warn_of_lines (const char *path, const CeldPlane *levels, const char *drawing, const CeldPlane *ink)
+{
+  bool have = false;
+
+  if (!cli_check (celd_levels_have_lines (levels, ink, &have)))
+    return false;
+  if (have)
+    cli_say ("\"%s\" has the lines of \"%s\", as if it were a drawing: levels and depth have the values of parts, also "
+             "where lines are.", path, drawing);
+  return true;
+}
+
+/* Flat colours that were filled into a drawing are regions and lines, of which something can be made. */
+bool
+cli_check_regions_of (const char *path, const CeldLabels *regions, const CeldPalette *palette, const char *drawing,
+                      const CeldPlane *ink, bool quiet)
+{
+  size_t    n = (size_t) regions->width * (size_t) regions->height;
+  CeldPaint paint = { regions->width, regions->height, (size_t) regions->width, g_try_malloc (4 * n) };
+  bool      have = false, grey = false, good = cli_check (paint.data ? CELD_OK : CELD_NO_MEMORY);
+
+  good = good && cli_check (celd_labels_paint (regions, palette, &paint)) &&
+         cli_check (celd_layer_has_lines (&paint, ink, &have));
+  if (good && have)
+    grey = !celd_paint_is_coloured (&paint);
+  g_free (paint.data);
+  if (grey)
+    return cli_error ("\"%s\" has the lines of \"%s\", and no colours: regions are flat colours, as segment writes "
+                      "them with --labels.", path, drawing);
+  if (good && have && !quiet)
+    cli_say ("\"%s\" has the lines of \"%s\", too, which then are regions of their own: fill regions up to the middle "
+             "of lines, as segment does.", path, drawing);
+  return good;
+}
+
+/* Reads the first part of a file. */
+static bool
+read_picture (const char *path, CeldPaint *picture)
+{
+  CeldIoError error;
+  CeldIoFile *file = celd_io_open (path, &error);
+  bool        good = file ? cli_read_paint (file, 0, path, picture) : cli_error ("%s", error.text);
+
+  celd_io_close (file);
+  return good;
+}
+
+bool
+cli_check_not_art (const char *path, const char *art)
+{
+  CeldPaint picture = { 0 }, other = { 0 };
+  bool      same = cli_same_file (path, art), good = true;
+
+  if (!same && !cli_is_npy (path))
+    good = read_picture (path, &picture) && read_picture (art, &other) &&
+           cli_check (celd_is_copy (&picture, &other, &same));
+  if (good && same)
+    good = cli_error ("\"%s\" is the same picture as \"%s\": give levels as popup writes them with --levels, and the "
+                      "art with --colours.", path, art);
+  g_free (picture.data);
+  g_free (other.data);
+  return good;
+}
+
+/* ------------------------------------------------------------------ hints of depth */
+
+/* Whether a picture has a pixel that can be seen. */
+static bool
+is_seen (const char *path, bool *seen)
+{
+  CeldPaint   picture = { 0 };
+  CeldIoError error;
+  CeldIoFile *file = cli_is_npy (path) ? NULL : celd_io_open (path, &error);
+  bool        good = !file || !celd_io_part (file, 0)->alpha || cli_read_paint (file, 0, path, &picture);
+
+  celd_io_close (file);
+  *seen = !picture.data;
+  for (size_t i = 0; i < (size_t) picture.width * (size_t) picture.height && !*seen; i++)
+    *seen = picture.data[4 * i + 3] > 0;
+  g_free (picture.data);
+  return good;
+}
+
+bool
+cli_check_hint (const char *path, const CeldPlane *depth, bool quiet)
+{
+  float least = depth->data[0], most = least;
+  bool  seen = true;
+
+  for (size_t i = 0; i < (size_t) depth->width * (size_t) depth->height; i++)
+    {
+      least = MIN (least, depth->data[i]);
+      most  = MAX (most, depth->data[i]);
+    }
+  if (most > least && !is_seen (path, &seen))
+    return false;
+  if (!seen || !(most > least))
+    return cli_error ("\"%s\" is blank, so that it says nothing about depth: give another picture, or none, as "
+                      "--depth-hint.", path);
+  if (!quiet && !celd_are_levels (depth))
+    cli_say ("\"%s\" looks like a photograph: a hint of depth is flat or smooth in each part, nearer is brighter.",
+             path);
+  return true;
+}
