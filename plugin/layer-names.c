@@ -7,7 +7,7 @@
 #include <glib/gi18n.h>
 #include <string.h>
 
-/* Folded as `fold` does; English first, then German and Czech; ended by NULL. */
+/* Folded as celd_layer_name_fold does; English first, then German and Czech; ended by NULL. */
 static const char *const names[CELD_N_LAYERS][8] = {
   [CELD_LAYER_DRAWING]     = { "drawing", "line art", "lineart", "zeichnung", "linien", "kresba", "linky" },
   [CELD_LAYER_SCRIBBLES]   = { "scribbles", "scribble", "kritzeleien", "kritzel", "striche", "cmaranice", "tahy" },
@@ -33,9 +33,8 @@ const CeldLabelColour celd_label_colours[CELD_N_LABEL_COLOURS] = {
   { 0x0099ff, N_ ("Azure") }, { 0x99ff66, N_ ("Lime") }, { 0x003399, N_ ("Navy") }, { 0xcc6699, N_ ("Mallow") },
 };
 
-/* Lower case without accents, spaces at the ends, and the ending of a file. */
-static char *
-fold (const char *name)
+char *
+celd_layer_name_fold (const char *name)
 {
   char   *decomposed = g_utf8_normalize (name, -1, G_NORMALIZE_ALL);
   char   *lower = g_utf8_casefold (decomposed ? decomposed : "", -1);
@@ -56,7 +55,7 @@ fold (const char *name)
 CeldLayerRole
 celd_layer_role_of_name (const char *name)
 {
-  char         *folded = fold (name);
+  char         *folded = celd_layer_name_fold (name);
   CeldLayerRole found = CELD_N_LAYERS;
 
   for (int role = 0; role < CELD_N_LAYERS; role++)

@@ -17,6 +17,9 @@ typedef enum
  * ends, and the ending of a file; CELD_N_LAYERS: it is none. */
 CeldLayerRole celd_layer_role_of_name (const char *name);
 
+/* A name in lower case without accents, spaces at the ends, and the ending of a file; free with g_free. */
+char *celd_layer_name_fold (const char *name);
+
 /* The English name of a role: "Drawing". */
 const char *celd_layer_role_name (CeldLayerRole role);
 

@@ -264,6 +264,9 @@ bool cli_layers_read  (const char *input, const CliOptions *options, CliRoles wa
 void cli_layers_clear (CliLayers *layers);
 /* Reads levels or depth of the size of the layers. */
 bool cli_hint_read    (const char *path, const CliLayers *layers, CeldPlane *depth);
+/* unknown-layers.c: false, with a message, if the regions come from layers of this file and it has none for them; says
+ * which layers have nearly the name of one that is missing. */
+bool cli_check_layer_names (const CeldIoFile *file, const char *path, const CliOptions *options, CliRoles wanted);
 /* The part that is called so; of a layer that the artist paints, in German or Czech, too (layer-names.h).
  * CELD_NO_INDEX: there is none. */
 size_t cli_find_part (const CeldIoFile *file, const char *name);

@@ -201,7 +201,8 @@ read_input (const char *path, const CliOptions *options, CliRoles wanted, CliLay
 {
   CeldIoFile *file = open_file (path);
   size_t      drawing = file ? find_drawing (file, path) : CELD_NO_INDEX;
-  bool        good = drawing != CELD_NO_INDEX && check_size (file, path, layers) &&
+  bool        good = drawing != CELD_NO_INDEX && cli_check_layer_names (file, path, options, wanted) &&
+                     check_size (file, path, layers) &&
                      cli_read_drawing (file, drawing, path, options, &layers->drawing, &layers->colours);
 
   if (good && !options->quiet)

@@ -114,6 +114,23 @@ class Layers(Test):
         write_psd(self.path('no-scribbles.psd'), (WIDTH, HEIGHT), layers()[:1])
         self.fails('popup', 'no-scribbles.psd', '--depth', 'd.png', naming='no scribbles and no arrows')
 
+    def test_unknown_names(self):
+        """What layers there are, which names are looked for, and which one may be meant."""
+        strokes = layers()[1][1:]
+        says = '"page.psd" has no scribbles and no arrows: call a layer "scribbles" or "arrows", or give --scribbles or ' \
+               '--arrows. Its layers are '
+        words = 'popup', 'page.psd', '--depth', 'd.png'
+        for name, names in (('Colours', '"Drawing", "Colours".'), ('Scribles', '"Drawing", "Scribles" (is it "scribbles"?).'),
+                            ('Pfeille', '"Drawing", "Pfeille" (is it "pfeile"?).')):
+            write_psd(self.path('page.psd'), (WIDTH, HEIGHT), [layers()[0], (name, *strokes)])
+            self.fails(*words, naming=says + names)
+        self.celdepth(*words, '--scribbles', 'scribbles.png')
+        for name, meant in (('Corections', True), ('Colours', False), ('Scribbles copy', False)):
+            write_psd(self.path('page.psd'), (WIDTH, HEIGHT), [*layers(), (name, *strokes)])
+            self.assertEqual('"page.psd" has a layer "Corections", which is not read: call it "corrections" if it is that.'
+                             in self.celdepth(*words), meant)
+            self.assertEqual(self.celdepth(*words, '--quiet'), '')
+
     def test_layers_with_other_names(self):
         """A PSD with other layers is an ordinary picture: its merged one (white here)."""
         write_psd(self.path('plain.psd'), (WIDTH, HEIGHT), [('Layer 1', *layers()[0][1:])])
