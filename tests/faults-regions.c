@@ -100,6 +100,32 @@ mix_up_step (const CeldHost *host, Results *r)
   return status == CELD_OK ? celd_mix_up (&scribbles, &drawing, &mix_up) : status;
 }
 
+/* The lines of four rooms in a layer, in levels, and a copy of the layer. */
+static CeldStatus
+lines_step (const CeldHost *host, Results *r)
+{
+  enum { SIDE = 64 };
+  static uint8_t drawn[4 * SIDE * SIDE];
+  static float   levels[SIDE * SIDE];
+  CeldPaint      layer = { SIDE, SIDE, SIDE, drawn };
+  CeldPlane      plane = { SIDE, SIDE, SIDE, levels };
+  bool           found;
+  CeldStatus     status;
+
+  (void) host;
+  (void) r;
+  for (int i = 0; i < SIDE * SIDE; i++)
+    {
+      levels[i] = i % SIDE % 32 == 16 || i / SIDE % 32 == 16 ? 0 : 1;
+      for (int k = 0; k < 4; k++)
+        drawn[4 * i + k] = k == 3 || levels[i] > 0 ? 255 : 0;
+    }
+  status = celd_layer_has_lines (&layer, &plane, &found);
+  if (status == CELD_OK)
+    status = celd_levels_have_lines (&plane, &plane, &found);
+  return status == CELD_OK ? celd_is_copy (&layer, &layer, &found) : status;
+}
+
 static CeldStatus
 contours_step (const CeldHost *host, Results *r)
 {
@@ -163,6 +189,16 @@ arrows_step (const CeldHost *host, Results *r)
   CeldPaint arrows = paint_of (&arrow_pixels);
 
   return celd_arrows_read (&arrows, CELD_ARROW_HEAD, host, &r->relations, &r->problems);
+}
+
+static CeldStatus
+are_arrows_step (const CeldHost *host, Results *r)
+{
+  CeldPaint arrows = paint_of (&arrow_pixels);
+  bool      are;
+
+  (void) r;
+  return celd_are_arrows (&arrows, host, &are);
 }
 
 static CeldStatus
@@ -414,6 +450,7 @@ const Step region_steps[] = {
   { "lines of a sprite", sprite_lines_step, NULL, true },
   { "clarity of lines", clarity_step, NULL, true },
   { "mixed-up layers", mix_up_step, NULL, false },
+  { "lines in a layer", lines_step, NULL, false },
   { "contours", contours_step, NULL, true },
   { "scribbles", scribbles_step, NULL, true },
   { "lossy scribbles", lossy_step, NULL, true },
@@ -421,6 +458,7 @@ const Step region_steps[] = {
   { "relations", relations_step, NULL, false },
   { "arrow-path", path_step, NULL, false },
   { "arrows", arrows_step, NULL, true },
+  { "layer of arrows", are_arrows_step, NULL, true },
   { "crossing arrows", crossing_step, NULL, true },
   { "arrows of two colours", coloured_step, NULL, true },
   { "arrows that share an end", joined_step, NULL, true },
