@@ -90,7 +90,8 @@ same_order (const CeldEdgeLoop *loop, const CeldContourPens *old, const CeldCont
   return !celd_label_order_changed (&list, old, new);
 }
 
-/* Are labels, widths and order the same as before at all points of a loop? */
+/* Are labels, widths and order the same as before at all points of a loop?  Of the farther label, too, whose line a
+ * thickened point may show. */
 static bool
 same_loop (const CeldEdgeLoop *loop, const CeldContourPens *old, const CeldContourPens *new, const bool *changed)
 {
@@ -99,7 +100,7 @@ same_loop (const CeldEdgeLoop *loop, const CeldContourPens *old, const CeldConto
       const CeldEdgePen *a = &old->pen[i], *b = &new->pen[i];
 
       if (a->near != b->near || a->far != b->far || a->thickened != b->thickened || changed[b->near] ||
-          changed[celd_pen_front (new, b)])
+          changed[b->far])
         return false;
     }
   return same_order (loop, old, new);

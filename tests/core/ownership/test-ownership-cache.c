@@ -240,13 +240,12 @@ edit_page (uint32_t seed, bool tinted)
 static void
 updates_equal_computation_from_scratch (void)
 {
-  static const uint32_t seeds[] = { 1, 2, 3, 4, 15 }; /* in the last a line comes round a corner */
+  /* Every other one with coloured lines.  14, 86: the pen of a label behind changes its width with levels, with labels;
+   * 15: a line comes round a corner. */
+  static const uint32_t seeds[] = { 1, 2, 14, 3, 86, 4, 15 };
 
   for (size_t i = 0; i < sizeof seeds / sizeof *seeds && !check_bad; i++)
-    {
-      edit_page (seeds[i] * 7919, false);
-      edit_page (seeds[i] * 7919, true);
-    }
+    edit_page (seeds[i] * 7919, i % 2);
 }
 
 /* ------------------------------------------------------------------ in a session */
