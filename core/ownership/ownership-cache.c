@@ -156,11 +156,11 @@ clip_rect (CeldRect r, int width, int height)
   return (CeldRect) { r.x, r.y, right - r.x, bottom - r.y };
 }
 
-/* Updates the marked tiles, and if levels have changed (sort) all that have antialiased pixels.  A changed owner
- * affects the neighbouring pixels, too. */
+/* Fills in the marked tiles, or the order in the others that have antialiased pixels.  A changed owner affects the
+ * neighbouring pixels, too. */
 static CeldRect
-update_record (const CeldOwnershipInput *in, const CeldOwnershipCache *kept, bool sort, const CeldTiles *tiles,
-               CeldOwnership *own)
+update_tiles (const CeldOwnershipInput *in, const CeldOwnershipCache *kept, bool marked, const CeldTiles *tiles,
+              CeldOwnership *own)
 {
   CeldRect changed = { 0 };
   int      w = in->ink->width, h = in->ink->height;
@@ -170,13 +170,24 @@ update_record (const CeldOwnershipInput *in, const CeldOwnershipCache *kept, boo
       {
         CeldRect r = celd_tile_rect (tx, ty, w, h);
         CeldRect round = clip_rect ((CeldRect) { r.x - 1, r.y - 1, r.width + 2, r.height + 2 }, w, h);
-        bool     marked = *celd_tile_of (tiles, r.x, r.y);
+        uint8_t  mark = *celd_tile_of (tiles, r.x, r.y);
 
-        if (marked || (sort && *celd_tile_of (&kept->antialiased, r.x, r.y)))
+        if (marked ? mark : !mark && *celd_tile_of (&kept->antialiased, r.x, r.y))
           changed = celd_rect_union (changed, celd_ownership_coverage (in->ink, &kept->owner, in->level,
                                                                        marked ? round : r, !marked, own));
       }
   return changed;
+}
+
+/* Updates the marked tiles, and if levels have changed (sort) the others.  These come last: until then their pixels
+ * beside marked tiles may have labels that do not exist any more. */
+static CeldRect
+update_record (const CeldOwnershipInput *in, const CeldOwnershipCache *kept, bool sort, const CeldTiles *tiles,
+               CeldOwnership *own)
+{
+  CeldRect changed = update_tiles (in, kept, true, tiles, own);
+
+  return sort ? celd_rect_union (changed, update_tiles (in, kept, false, tiles, own)) : changed;
 }
 
 /* ------------------------------------------------------------------ from scratch */

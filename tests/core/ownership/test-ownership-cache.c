@@ -248,6 +248,53 @@ updates_equal_computation_from_scratch (void)
     edit_page (seeds[i] * 7919, i % 2);
 }
 
+/* ------------------------------------------------------------------ a label that is gone */
+
+/* Edits a page with an upright line of label 1, and behind it another label, whose paper begins with a tile.  The list
+ * of levels has no room for more than n labels. */
+static void
+update_beside_line (uint32_t other, size_t n, CeldOwnershipCache *kept, CeldOwnership *own)
+{
+  int                side = 6 * CELD_TILE;
+  CeldPlane          ink;
+  CeldLabels         labels;
+  CeldRect           changed, all = { 0, 0, side, side };
+  uint32_t          *level = celd_alloc0 (n, sizeof *level);
+  CeldOwnershipInput in = { .ink = &ink, .labels = &labels, .level = level, .n = n };
+
+  CHECK (celd_plane_new (side, side, &ink) == CELD_OK && celd_labels_new (side, side, &labels) == CELD_OK && level);
+  level[0] = 1;
+  for (int p = 0; p < side * side; p++)
+    {
+      int left = p % side - 3 * CELD_TILE; /* antialiased in the last column of a tile */
+
+      ink.data[p]    = left == -1 ? 0.3f : left < -1 && left > -5 ? 0 : 1;
+      labels.data[p] = left < -3 ? 1 : other;
+    }
+  CHECK ((kept->level ? celd_ownership_cache_update (&in, all, NULL, kept, own, &changed)
+                      : celd_ownership_cache_make (&in, NULL, kept, own)) == CELD_OK);
+  celd_free (ink.data);
+  celd_free (labels.data);
+  celd_free (level);
+}
+
+/* Nothing asks for the level of a label that an edit has removed; the address sanitizer sees it. */
+static void
+removed_labels_have_no_level (void)
+{
+  int                side = 6 * CELD_TILE, x = 3 * CELD_TILE - 1, y = side / 2;
+  CeldOwnershipCache kept = { 0 };
+  CeldOwnership      own;
+
+  CHECK (celd_ownership_new (side, side, &own) == CELD_OK);
+  update_beside_line (3, 3, &kept, &own);
+  CHECK (CELD_AT (&own.owner, x, y) == 1 && CELD_AT (&own.under, x, y) == 3);
+  update_beside_line (2, 2, &kept, &own);
+  CHECK (CELD_AT (&own.owner, x, y) == 1 && CELD_AT (&own.under, x, y) == 2);
+  celd_ownership_cache_clear (&kept);
+  celd_ownership_clear (&own);
+}
+
 /* ------------------------------------------------------------------ in a session */
 
 /* A dot of a colour somewhere, or nothing at all. */
@@ -371,6 +418,7 @@ int
 main (void)
 {
   RUN (updates_equal_computation_from_scratch);
+  RUN (removed_labels_have_no_level);
   RUN (sessions_equal_computation_from_scratch);
   RUN (cancelled_edits_do_no_harm);
   return DONE;
