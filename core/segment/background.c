@@ -77,28 +77,64 @@ frame_clear (Frame *frame)
 
 /* ------------------------------------------------------------------ owners of the frame */
 
-/* scattered[k]: pixels of stroke k along the frame, if it is at home nowhere; else 0. */
-static void
-find_scattered (const CeldStrokes *strokes, const size_t *along, size_t *scattered)
+/* Which strokes count in which part. */
+typedef struct
 {
+  const CeldStrokes *strokes;
+  const size_t      *along;     /* of each part: its frame pixels */
+  bool               all_count;
+  size_t            *scattered; /* of stroke k: its pixels along the frame, if it is at home nowhere; else 0 */
+  bool              *crosses;   /* of stroke k: lies it on ink, too?  NULL until it is needed, which is seldom */
+  CeldStatus         status;
+} Counting;
+
+static CeldStatus
+find_scattered (Counting *c)
+{
+  const CeldStrokes *strokes = c->strokes;
+
+  c->scattered = celd_alloc0 (strokes->n_strokes, sizeof *c->scattered);
+  if (!c->scattered)
+    return CELD_NO_MEMORY;
   for (size_t i = 0; i < strokes->n; i++)
-    if (along[strokes->overlap[i].part])
-      scattered[strokes->overlap[i].stroke] += strokes->overlap[i].pixels;
+    if (c->along[strokes->overlap[i].part])
+      c->scattered[strokes->overlap[i].stroke] += strokes->overlap[i].pixels;
   for (size_t i = 0; i < strokes->n; i++)
     if (2 * strokes->overlap[i].pixels >= strokes->total[strokes->overlap[i].stroke])
-      scattered[strokes->overlap[i].stroke] = 0;
+      c->scattered[strokes->overlap[i].stroke] = 0;
+  return CELD_OK;
 }
 
-/* crosses[k]: whether stroke k lies on ink, too. */
-static void
-find_crossing (const CeldStrokes *strokes, bool *crosses)
+static bool
+crosses_ink (Counting *c, uint32_t stroke)
 {
-  for (size_t i = 0; i < strokes->n_pieces; i++)
-    {
-      const CeldStrokePiece *piece = &strokes->piece[i];
+  const CeldStrokes *strokes = c->strokes;
 
-      crosses[piece->stroke] |= piece->paper < (uint32_t) (piece->end - piece->x);
+  if (!c->crosses)
+    {
+      c->crosses = celd_alloc0 (strokes->n_strokes, sizeof *c->crosses);
+      for (size_t i = 0; c->crosses && i < strokes->n_pieces; i++)
+        {
+          const CeldStrokePiece *piece = &strokes->piece[i];
+
+          c->crosses[piece->stroke] |= piece->paper < (uint32_t) (piece->end - piece->x);
+        }
     }
+  if (!c->crosses)
+    c->status = CELD_NO_MEMORY;
+  return !c->crosses || c->crosses[stroke];
+}
+
+/* Does a stroke count where it overlaps a part?  *across: because it runs on along the frame. */
+static bool
+counts (Counting *c, const CeldStrokeOverlap *overlap, bool *across)
+{
+  size_t total = c->strokes->total[overlap->stroke];
+  bool   along = c->along[overlap->part], runs_on = along && 2 * c->scattered[overlap->stroke] >= total;
+
+  *across |= runs_on;
+  return c->all_count || runs_on || 2 * overlap->pixels >= total ||
+         (along && FAIR_PART * overlap->pixels >= total && !crosses_ink (c, overlap->stroke));
 }
 
 /* owner[k] becomes the label with most paint in part k, 0 without any or, if `fair`, with less than a fair share of it.
@@ -108,16 +144,10 @@ static CeldStatus
 find_owners (const CeldStrokes *strokes, bool all_count, bool fair, const size_t *along, bool *across,
              uint32_t *owner)
 {
-  size_t    *scattered = celd_alloc0 (strokes->n_strokes, sizeof *scattered);
-  bool      *crosses = celd_alloc0 (strokes->n_strokes, sizeof *crosses);
-  CeldStatus status = scattered && crosses ? CELD_OK : CELD_NO_MEMORY;
+  Counting c = { .strokes = strokes, .along = along, .all_count = all_count };
 
-  if (status == CELD_OK)
-    {
-      find_scattered (strokes, along, scattered);
-      find_crossing (strokes, crosses);
-    }
-  for (size_t i = 0; i < strokes->n && status == CELD_OK;)
+  c.status = find_scattered (&c);
+  for (size_t i = 0; i < strokes->n && c.status == CELD_OK;)
     {
       uint32_t part = strokes->overlap[i].part;
       size_t   most = 0, all = 0, labels = 0;
@@ -130,27 +160,21 @@ find_owners (const CeldStrokes *strokes, bool all_count, bool fair, const size_t
           labels++;
           for (; i < strokes->n && strokes->overlap[i].part == part && strokes->overlap[i].label == label; i++)
             {
-              const CeldStrokeOverlap *overlap = &strokes->overlap[i];
-              size_t                   total = strokes->total[overlap->stroke];
-              bool                     runs_on = along[part] && 2 * scattered[overlap->stroke] >= total;
-              size_t                   share = along[part] && !crosses[overlap->stroke] ? FAIR_PART : 2;
-
-              all += overlap->pixels;
-              across[label] |= runs_on;
-              paint += all_count || runs_on || share * overlap->pixels >= total ? overlap->pixels : 0;
+              all += strokes->overlap[i].pixels;
+              paint += counts (&c, &strokes->overlap[i], &across[label]) ? strokes->overlap[i].pixels : 0;
             }
           if (paint > most)
             {
-              most         = paint;
+              most        = paint;
               owner[part] = label;
             }
         }
       if (fair && labels * most < all)
         owner[part] = 0;
     }
-  celd_free (scattered);
-  celd_free (crosses);
-  return status;
+  celd_free (c.scattered);
+  celd_free (c.crosses);
+  return c.status;
 }
 
 /* Finds the owner of each part of the drawing. */
