@@ -88,12 +88,18 @@ celd_op_read_plane (CeldOp *op, const char *pad, CeldPlane *plane)
 }
 
 gboolean
-celd_op_read_paint (CeldOp *op, const char *pad, CeldPaint *paint)
+celd_op_read_painted (CeldOp *op, const char *pad, CeldPaint *paint)
 {
-  if (!celd_op_check_numbers (op, pad) || !celd_op_new_paint (op, paint))
+  if (!celd_op_new_paint (op, paint))
     return FALSE;
   celd_buffer_read_paint (celd_op_buffer (op, pad), &op->picture, paint);
   return TRUE;
+}
+
+gboolean
+celd_op_read_paint (CeldOp *op, const char *pad, CeldPaint *paint)
+{
+  return celd_op_check_numbers (op, pad) && celd_op_read_painted (op, pad, paint);
 }
 
 gboolean
@@ -114,15 +120,6 @@ celd_op_read_drawing (CeldOp *op, const char *pad, CeldDrawing *drawing)
   return celd_op_new_plane (op, &drawing->luma) &&
          (!celd_buffer_has_alpha (buffer) || celd_op_new_plane (op, &drawing->alpha)) &&
          celd_op_try (op, celd_buffer_read_drawing (buffer, &op->picture, op->settings.ink, &op->quiet, drawing));
-}
-
-gboolean
-celd_op_read_painted (CeldOp *op, const char *pad, CeldPaint *paint)
-{
-  if (!celd_op_new_paint (op, paint))
-    return FALSE;
-  celd_buffer_read_paint (celd_op_buffer (op, pad), &op->picture, paint);
-  return TRUE;
 }
 
 gboolean

@@ -1,8 +1,8 @@
 /* The lines of a sprite: pixel art in a few exact colours, without antialiasing.
  *
  * Every pixel has the colour that the artist gave it, so that lines are found by colours, however narrow the fills
- * between them are: nearly all that a line's colour touches is lighter, and hardly a pixel of it has neighbours of this
- * colour alone.  Areas in the colour of lines remain fills.
+ * between them are: nearly all that a line's colour touches is lighter, and about half of its pixels at most have
+ * neighbours of this colour alone.  Areas in the colour of lines remain fills.
  *
  * Cost: O(pixels).
  *
@@ -123,7 +123,9 @@ is_antialiased (const SpriteColours *s)
 static bool
 is_line (const SpriteColour *c)
 {
-  return c->edges && 4 * (size_t) c->lighter >= 3 * (size_t) c->edges && 20 * (size_t) c->inner < 11 * (size_t) c->pixels;
+  size_t edges = c->edges, lighter = c->lighter, inner = c->inner, pixels = c->pixels;
+
+  return edges && 4 * lighter >= 3 * edges && 20 * inner < 11 * pixels; /* half of a line of four pixels is inner */
 }
 
 /* Has a fiftieth of the picture hues, and is not paper, the commonest colour? */

@@ -21,13 +21,13 @@
 #define BESIDE_EDGE   2.5f  /* pixels from the edge of ink to where paper is not antialiased; chosen */
 #define THINNEST_LINE 2.5f  /* pixels, to have colours of its own; chosen */
 #define SHADE_STEP    0.5f  /* pixels between the samples through a line; chosen */
-#define MOST_SAMPLES  128   /* thicker ink is no line; chosen */
+#define MOST_THICK    64.f  /* pixels; thicker ink is no line; chosen */
 #define LEAST_SAMPLES 2     /* of a line beside another one, at least; chosen */
 #define HUES_APART    8.f   /* of 255: by how much shades of both papers must differ; chosen */
 #define NEAR_SHADE    0.3f  /* how far a colour may be from a shade of one paper, as a share of that; chosen */
 #define LEAST_POINTS  64    /* to tell how lines are coloured; chosen: some edges of 16 pixels */
-#define LEAST_SHADES  0.6f  /* share of points with a shade, at least: .82 and more in drawings with such lines of 3 pixels
-                             * and more, .47 and less in those with lines of one colour */
+#define LEAST_SHADES  0.6f  /* share of points with a shade, at least; measured in 60 drawings: .71 and more with such lines
+                             * of 3 pixels and more, .47 and less with lines of one colour */
 #define MOST_ALIKE    0.85f /* share of these where lines have the same hue, at most; chosen */
 #define HUE_SHARES    32    /* by which red's and green's shares of a colour are counted; chosen */
 
@@ -93,8 +93,8 @@ paper_hue (const ShadeReader *s, const CeldEdgePoint *p, float along, Colour *hu
 
 /* ------------------------------------------------------------------ one point */
 
-/* How many samples through the ink there are; how many from this side on, and from the other side on, are shades of the
- * paper there. */
+/* How many samples through the ink there are, how many of the first are shades of the paper on this side, and how many of
+ * the last of that on the other side. */
 typedef struct { size_t n, near, far; } ShadeRuns;
 
 /* False if colours tell nothing. */
@@ -105,7 +105,7 @@ read_runs (const ShadeReader *s, const CeldEdgePoint *p, ShadeRuns *runs)
   bool   near_goes_on = true;
   Colour near, far;
 
-  if (p->skewed || p->across < 0 || p->thickness < THINNEST_LINE || p->thickness > SHADE_STEP * MOST_SAMPLES ||
+  if (p->skewed || p->across < 0 || p->thickness < THINNEST_LINE || p->thickness > MOST_THICK ||
       !paper_hue (s, p, -BESIDE_EDGE, &near) || !paper_hue (s, p, p->thickness + BESIDE_EDGE, &far))
     return false;
   hues_apart = distance_from_shades (near, far);
