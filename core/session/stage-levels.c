@@ -92,8 +92,8 @@ make_ownership (CeldSession *s, const CeldOwnershipInput *input, const CeldHost 
   if (status == CELD_OK && s->settings.expansion == CELD_EXPANSION_OUTLINES)
     status = celd_ownership_cache_make (input, host, &s->ownership_cache, &own);
   else if (status == CELD_OK)
-    status = celd_own (input->ink, input->colours, input->labels, input->level, input->n, input->corrections, s->settings.expansion,
-                       host, &own);
+    status = celd_own (input->ink, input->colours, input->labels, input->level, input->n, input->corrections,
+                       s->settings.expansion, host, &own);
   if (status == CELD_OK)
     replace_ownership (s, &own);
   celd_ownership_clear (&own);
