@@ -21,7 +21,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define FAINTEST_INK    0.499f /* ink of a bridge that is a mere guess: just not paper */
 #define CERTAIN_LENGTH  6      /* stroke widths: up to here a bridge is certain (chosen, as the next three) */
 #define DOUBTFUL_LENGTH 12     /* from here on it is a guess */
 #define CERTAIN_COSINE  0.94   /* of the larger angle by which it turns: certain up to 20 degrees */
@@ -138,7 +137,7 @@ build_between (BridgeBuilder *b, const CeldTipPair *pair)
   bool        built;
   CeldStatus  status;
 
-  b->faintness = FAINTEST_INK * (float) (1 - certainty (&b->tip[pair->a], &b->tip[pair->b], b->stroke));
+  b->faintness = CELD_FAINTEST_INK * (float) (1 - certainty (&b->tip[pair->a], &b->tip[pair->b], b->stroke));
   status       = build (b, (CeldBridge) { .ahead = false }, place, n, &built);
   if (built)
     b->taken[pair->a] = b->taken[pair->b] = true;
@@ -193,7 +192,7 @@ build_ahead (BridgeBuilder *b, const CeldTip *tip)
   CeldPlace place[2] = { { tip->x, tip->y } };
   bool      built;
 
-  b->faintness = FAINTEST_INK;
+  b->faintness = CELD_FAINTEST_INK;
   if (!find_ink_ahead (b, tip, &place[1]))
     return CELD_OK;
   return build (b, (CeldBridge) { .ahead = true, .line = is_side (b, tip, place[1]) }, place, 2, &built);

@@ -34,6 +34,8 @@ CeldStatus celd_tip_pairs_next (CeldTipPairs *pairs, const bool *taken, const Ce
 
 /* ------------------------------------------------------------------ bridges.c */
 
+#define CELD_FAINTEST_INK 0.499f /* of a bridge that is a mere guess: just not paper */
+
 /* A pixel of paper that a bridge passes over, and the ink that it gets there: 0 if the bridge is certain, up to just
  * not paper if it is a mere guess. */
 typedef struct { int32_t x, y; float ink; } CeldBridgePixel;
@@ -78,9 +80,9 @@ CeldStatus celd_bridges_make_basins (const CeldPlane *ink, CeldRect *changed, fl
 CeldStatus celd_bridges_join (const CeldBridges *bridges, const CeldPlane *ink, CeldBasins *basins,
                               uint32_t **bridged_component);
 
-/* Two basins that a bridge parts, and that are one paper without it.  `narrow`: the bridge has two ends and is at most
- * two stroke widths long, like a gap in a contour. */
-typedef struct { uint32_t a, b; bool narrow; } CeldPassage;
+/* Two basins that a bridge parts, and that are one paper without it.  `doubt`: 0 if the bridge is certain, 1 if it is a
+ * mere guess.  `narrow`: it has two ends and is at most two stroke widths long, like a gap in a contour. */
+typedef struct { uint32_t a, b; float doubt; bool narrow; } CeldPassage;
 
 /* Lists the passages, one for each pixel of a bridge and neighbour of it on paper in another basin; `ink` is without
  * bridges.  To be freed with celd_free; CELD_NO_MEMORY is the only failure. */

@@ -22,9 +22,13 @@
 #include "solve/maxflow.h"
 #include "solve/partition.h"
 
+#include <math.h>
+
 #define OUTLINE_SHARE    16 /* an outline towards the background counts 1 / so much as a barrier (chosen) */
-#define PASSAGE_WEAKNESS ((int64_t) 1 << 20) /* of a pixel of a bridge as a barrier: as 1024 of the thinnest line, and
-                                              * far less than paper without a bridge (chosen) */
+#define PASSAGE_WEAKNESS (1 << 20) /* of a pixel of a bridge as a barrier: as 1024 of the thinnest line, and far less
+                                    * than paper without a bridge (chosen) */
+#define LEAST_DOUBT      (1 / 256.0f) /* of that in a narrow gap whose bridge is certain: as 4 of the thinnest line
+                                       * (chosen) */
 #define SHARED           UINT32_MAX /* value of sole_label: several labels have paint there */
 
 typedef struct
@@ -232,13 +236,14 @@ barrier_weakness (const Graph *g, const CeldBasinBoundary *b)
   return meets_background (g, b->a, b->b) && !b->opening ? b->weakness / OUTLINE_SHARE : b->weakness;
 }
 
-/* How much weaker a boundary is by a passage.  What opens to the background may be a bay or a gap in an outline. */
+/* How much weaker a boundary is by a passage.  What opens to the background may be a bay or a gap in an outline; over a
+ * narrow gap between two other parts the line goes on as surely as its bridge is certain. */
 static int64_t
 passage_weakness (const Graph *g, const CeldPassage *passage)
 {
-  if (!meets_background (g, passage->a, passage->b))
-    return PASSAGE_WEAKNESS;
-  return passage->narrow ? 0 : PASSAGE_WEAKNESS / OUTLINE_SHARE;
+  if (meets_background (g, passage->a, passage->b))
+    return passage->narrow ? 0 : PASSAGE_WEAKNESS / OUTLINE_SHARE;
+  return passage->narrow ? (int64_t) (PASSAGE_WEAKNESS * fmaxf (passage->doubt, LEAST_DOUBT)) : PASSAGE_WEAKNESS;
 }
 
 /* Lists the boundaries between nodes, each with its smoothness cost or, if `barriers`, with how weak it is, and then

@@ -200,6 +200,17 @@ def pinched_much():
     return pinched(0.75, 6)
 
 
+def gap_beside_bay():
+    """A box with a gap of one and a half stroke widths; the bay of the page behind the gap is nearly closed."""
+    f = Figure()
+    f.shape(box(30, 30, 210, 110), 16)
+    f.line([(150, 110), (150, 170), (60, 170), (60, 134)], 16)
+    f.ink.rectangle([v * SCALE for v in (93, 101, 117, 119)], 255)
+    f.stroke('scribbles', [(50, 60), (190, 60)], A)
+    f.stroke('scribbles', [(10, 15), (230, 15)], B)
+    return f
+
+
 def severed():
     """A stroke that runs over a contour and ends behind a later stroke of another colour, in a narrow part."""
     f = Figure()
@@ -395,9 +406,9 @@ def soft_on_white():
 
 
 FIGURES = [two_arrows, thick, contours, two_characters, frame, limbs, cycle, broken, pinched_little, pinched_much,
-           severed, close_up, forgotten, cut_off, unpainted_page, stopped_near, stopped_farther, stopped_far, open_bay,
-           vein, notch, hairline, stroke_on_contour, pencil_on_smooth_paper, pencil_on_rough_paper, cover_on_thick,
-           cover_on_thicker, soft_on_white]
+           gap_beside_bay, severed, close_up, forgotten, cut_off, unpainted_page, stopped_near, stopped_farther,
+           stopped_far, open_bay, vein, notch, hairline, stroke_on_contour, pencil_on_smooth_paper,
+           pencil_on_rough_paper, cover_on_thick, cover_on_thicker, soft_on_white]
 
 
 if __name__ == '__main__':

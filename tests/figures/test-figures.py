@@ -151,6 +151,12 @@ def pinched(run):
     yield 'the gap is closed', r.colour(175, 30) == figures.B and r.colour(175, 55) == figures.A
 
 
+def gap_beside_bay(run):
+    r = run()
+    yield 'the bay is the page', r.colour(105, 140) == r.colour(105, 125) == figures.B
+    yield 'the box ends at its gap', r.colour(105, 97) == figures.A
+
+
 def severed(run):
     r = run()
     yield 'what the stroke ran into keeps its colour', r.colour(190, 60) == r.colour(190, 140) == figures.B
@@ -229,9 +235,10 @@ def cover(run):
     yield 'each sheet has its own line', all(right[ink & (r.owner == k)].mean() >= 0.95 for k in (1, 2))
 
 
-OUTCOMES = [two_arrows, thick, contours, two_characters, frame, limbs, cycle, broken, pinched, pinched, severed,
-            close_up, forgotten, cut_off, unpainted_page, stopped_short, stopped_short, stopped_short, no_room,
-            no_room, no_room, hairline, stroke_on_contour, hairline, hairline, cover, cover, soft_on_white]
+OUTCOMES = [two_arrows, thick, contours, two_characters, frame, limbs, cycle, broken, pinched, pinched,
+            gap_beside_bay, severed, close_up, forgotten, cut_off, unpainted_page, stopped_short, stopped_short,
+            stopped_short, no_room, no_room, no_room, hairline, stroke_on_contour, hairline, hairline, cover, cover,
+            soft_on_white]
 
 
 def main():
