@@ -27,6 +27,7 @@
 #define LEAST_INKED  0.75 /* of the way from side to side of a line that ends (chosen) */
 #define LINE_ARMS    5    /* arms behind the end a line is as wide as near it (chosen) */
 #define MOST_WIDENING 1.3  /* times, plus a pixel (chosen): lines that meet at 10 degrees are 1.7 times as wide */
+#define FARTHEST_INK 3    /* pixels behind a corner of the outline, at an edge that is aslant (chosen) */
 #define SAME_END     0.75 /* line widths: ends closer than this are the same */
 #define END_CELL     16   /* pixels: side of the cells in which found ends are looked up */
 
@@ -223,6 +224,24 @@ line_width (const LineEndSearch *s, size_t i, size_t arm)
   return width;
 }
 
+/* The first pixel of ink on the way from a corner of the outline to the middle of the line.  At an aslant edge it need
+ * not be the first pixel of all. */
+static bool
+find_ink (const LineEndSearch *s, CeldCorner corner, CeldPlace middle, CeldCorner *pixel)
+{
+  double length = hypot (middle.x - corner.x, middle.y - corner.y);
+
+  for (double t = 1; t <= fmin (length, FARTHEST_INK); t += 0.5)
+    {
+      pixel->x = (int32_t) floor (corner.x + t / length * (middle.x - corner.x));
+      pixel->y = (int32_t) floor (corner.y + t / length * (middle.y - corner.y));
+      if (pixel->x >= 0 && pixel->y >= 0 && pixel->x < s->width && pixel->y < s->height &&
+          *mask_at (s, pixel->x, pixel->y))
+        return true;
+    }
+  return false;
+}
+
 /* Adds the corner if a line ends there.  A very sharp tip (CERTAIN_TIP) counts even if its line is too short or too
  * curved to fit a direction. */
 static CeldStatus
@@ -234,12 +253,8 @@ try_corner (LineEndSearch *s, size_t i, size_t arm, CeldPlace middle, double sha
   CeldCorner inside;
   CeldTip    end;
 
-  if (!*mask_at (s, (int) floor (middle.x), (int) floor (middle.y)) || back < 1)
-    return CELD_OK;
-  inside.x = (int32_t) floor (corner.x + (middle.x - corner.x) / back);
-  inside.y = (int32_t) floor (corner.y + (middle.y - corner.y) / back);
-  if (inside.x < 0 || inside.y < 0 || inside.x >= s->width || inside.y >= s->height ||
-      !*mask_at (s, inside.x, inside.y))
+  if (!*mask_at (s, (int) floor (middle.x), (int) floor (middle.y)) || back < 1 ||
+      !find_ink (s, corner, middle, &inside))
     return CELD_OK;
   celd_line_end_fit (s->ink, inside, &s->end);
   if (s->end.tip)

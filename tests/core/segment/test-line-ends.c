@@ -124,6 +124,43 @@ both_ends_at_a_gap_are_found (void)
     }
 }
 
+/* Rubs a disc out of the drawing. */
+static void
+rub_out (Scene *s, double x, double y, double radius)
+{
+  for (int v = 0; v < s->ink.height; v++)
+    for (int u = 0; u < s->ink.width; u++)
+      {
+        float *ink = &CELD_AT (&s->ink, u, v);
+
+        *ink = fmaxf (*ink, (float) fmin (1, fmax (0, radius + 0.5 - hypot (u + 0.5 - x, v + 0.5 - y))));
+      }
+}
+
+/* A ring from which the lines at both sides of a short piece are rubbed out has four hollow ends, however they lie on
+ * the grid of pixels. */
+static void
+ends_that_were_rubbed_out_are_found (void)
+{
+  for (int width = 6; width <= 16; width += 2)
+    for (int angle = 0; angle < 180; angle += 3)
+      {
+        double radius = 55, apart = (1.5 + 0.75) * width / radius;
+        Scene  s;
+
+        scene_open (SIDE, SIDE, &s);
+        draw_arc (&s, radius, 0, 2 * PI, width);
+        for (int side = -1; side <= 1; side += 2)
+          {
+            double a = angle * PI / 180 + side * apart;
+
+            rub_out (&s, SIDE / 2 + radius * cos (a), SIDE / 2 + radius * sin (a), 0.75 * width);
+          }
+        CHECK (count (&s) >= 4);
+        scene_close (&s);
+      }
+}
+
 static void
 blots_and_areas_have_none (void)
 {
@@ -237,6 +274,7 @@ main (void)
   RUN (closed_lines_have_none);
   RUN (crossing_lines_have_four);
   RUN (both_ends_at_a_gap_are_found);
+  RUN (ends_that_were_rubbed_out_are_found);
   RUN (blots_and_areas_have_none);
   RUN (an_outlined_limb_is_no_line);
   RUN (ends_have_the_width_of_their_line);
