@@ -57,6 +57,14 @@ opaque_drawings (void)
     luma_of[i] = on_line (i, 3) ? 0.1f : 0.4f;
   CHECK (mode_of (false) == CELD_INK_DARK);
 
+  /* lines so broad that a little more than half is black, as in a part cut out of an icon; chalk as broad as lines can be */
+  for (int i = 0; i < SIDE * SIDE; i++)
+    luma_of[i] = on_line (i, 9) || (i % SIDE % 32 == 9) ? 0 : 1;
+  CHECK (mode_of (false) == CELD_INK_DARK);
+  for (int i = 0; i < SIDE * SIDE; i++)
+    luma_of[i] = on_line (i + 16 + 16 * SIDE, 7) ? 1 : 0;
+  CHECK (mode_of (false) == CELD_INK_LIGHT);
+
   /* more black than white, but paper has the frame; black frame, but more white than black */
   for (int i = 0; i < SIDE * SIDE; i++)
     luma_of[i] = in_disc (i, 85) ? 0 : 1;
