@@ -18,21 +18,26 @@
 
 #define MOST_DISCOUNT 10 /* cost units: a pair far from paper costs at most this much less (chosen) */
 #define THIN_LINE     1024 /* weakness of a pair in the thinnest line; falls with the cube of the thickness (chosen) */
-#define PAGE_MARGIN   64 /* of half the perimeter: the margin that a cropped page is assumed to have had (chosen) */
+#define PAGE_MARGIN   16 /* of half the perimeter: the margin that a cropped page is assumed to have had (chosen) */
+#define DEAREST       (INT32_MAX / 4) /* that a pair may cost, as a flow and what it returns are added up */
 
 void
 celd_smoothness_costs_new (int width, int height, float threshold, CeldSmoothnessCosts *costs)
 {
+  int32_t dearest;
+
   costs->width  = width;
   costs->height = height;
   costs->paper_cost  = 2.0 * (width + height);
-  costs->margin = 1 + (width + height) / PAGE_MARGIN;
   for (int i = 0; i <= CELD_INK_STEPS; i++)
     {
       double g = fmax (0, ((double) i / CELD_INK_STEPS - (double) threshold) / (1 - (double) threshold));
 
       costs->by_ink[i] = (int32_t) (CELD_COST_UNIT * (1 + costs->paper_cost * g * g * g));
     }
+  dearest       = DEAREST / costs->by_ink[CELD_INK_STEPS];
+  costs->margin = 1 + (width + height) / PAGE_MARGIN;
+  costs->margin = costs->margin < dearest ? costs->margin : dearest;
   costs->discount[0] = 0;
   for (int i = 1; i <= CELD_MOST_TO_PAPER; i++)
     costs->discount[i] = (int32_t) (MOST_DISCOUNT * (1 - 1 / sqrt (i)));

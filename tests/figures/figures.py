@@ -236,6 +236,16 @@ def close_up():
     return f
 
 
+def nearly_touches_frame():
+    """A ring with a gap in it nearly touches the frame on all sides: the page's corners are as good as apart."""
+    f = Figure(200, 200)
+    around = [math.radians(i) for i in range(149, 482)]        # the gap is at the lower left
+    f.line([(100 + 92 * math.cos(a), 100 + 92 * math.sin(a)) for a in around])
+    f.stroke('scribbles', [(70, 70), (130, 120)], A)
+    f.stroke('scribbles', [(180, 10), (190, 20)], B)
+    return f
+
+
 def forgotten():
     """Four parts of which only one is painted: one is closed, one open through a gap, and one is a speck."""
     f = Figure()
@@ -406,9 +416,9 @@ def soft_on_white():
 
 
 FIGURES = [two_arrows, thick, contours, two_characters, frame, limbs, cycle, broken, pinched_little, pinched_much,
-           gap_beside_bay, severed, close_up, forgotten, cut_off, unpainted_page, stopped_near, stopped_farther,
-           stopped_far, open_bay, vein, notch, hairline, stroke_on_contour, pencil_on_smooth_paper,
-           pencil_on_rough_paper, cover_on_thick, cover_on_thicker, soft_on_white]
+           gap_beside_bay, severed, close_up, nearly_touches_frame, forgotten, cut_off, unpainted_page,
+           stopped_near, stopped_farther, stopped_far, open_bay, vein, notch, hairline, stroke_on_contour,
+           pencil_on_smooth_paper, pencil_on_rough_paper, cover_on_thick, cover_on_thicker, soft_on_white]
 
 
 if __name__ == '__main__':

@@ -175,6 +175,12 @@ def unreached(r):
     return [p['place'] for p in r.report['problems'] if p['kind'] == 'region-unreached']
 
 
+def nearly_touches_frame(run):
+    r = run('--close-gaps=no')
+    yield 'the corners are the page', r.colour(10, 190) == r.colour(10, 10) == r.colour(190, 190) == figures.B
+    yield 'the ring is not', r.colour(60, 115) == figures.A
+
+
 def forgotten(run):
     places = unreached(run())
     yield 'the closed part is named', any(100 < x < 140 and 40 < y < 80 for x, y in places)
@@ -236,9 +242,9 @@ def cover(run):
 
 
 OUTCOMES = [two_arrows, thick, contours, two_characters, frame, limbs, cycle, broken, pinched, pinched,
-            gap_beside_bay, severed, close_up, forgotten, cut_off, unpainted_page, stopped_short, stopped_short,
-            stopped_short, no_room, no_room, no_room, hairline, stroke_on_contour, hairline, hairline, cover, cover,
-            soft_on_white]
+            gap_beside_bay, severed, close_up, nearly_touches_frame, forgotten, cut_off, unpainted_page,
+            stopped_short, stopped_short, stopped_short, no_room, no_room, no_room, hairline, stroke_on_contour,
+            hairline, hairline, cover, cover, soft_on_white]
 
 
 def main():
