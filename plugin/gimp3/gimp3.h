@@ -220,6 +220,12 @@ GimpLayer *celd_results_find (GimpImage *image, const char *mark);
 /* The same if its pixels may be written: they are not locked. */
 GimpLayer *celd_results_find_unlocked (GimpImage *image, const char *mark);
 
+/* ------------------------------------------------------------------ live-send.c */
+
+#define CELD_LIVE_SEND "plug-in-celdepth-live-send"
+
+GimpProcedure *celd_live_send_create (GimpPlugIn *plug_in);
+
 /* ------------------------------------------------------------------ effect.c */
 
 #define CELD_EFFECT "celdepth:live-popup"

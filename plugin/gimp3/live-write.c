@@ -3,13 +3,8 @@
  * Pixels are written straight into a layer, which makes no step of undo, so that Ctrl+Z takes back the artist's own
  * strokes; and only where they differ from what is there, since GIMP has to draw these again.
  *
- * What is there is read in a copy, for the reason that live-follow.c gives.  Whole tiles are written, also where they
- * go beyond the layer, since GEGL would first read a tile that is written in part; a layer that grows meanwhile may get
- * them in a wrong place, until the next picture comes.  They are written by rows, so that a layer may shrink before the
- * rows that it loses are.  GIMP ends a plug-in that writes a tile which is not there any more, or may not be written: a
- * layer that shrinks, goes or is locked in the few milliseconds that these rows take still ends it.  Between any two
- * messages of a plug-in GIMP may do what the artist has asked for, and each tile is a message; it has no other way of
- * writing without a step of undo.
+ * What is there is read in a copy, for the reason that live-follow.c gives.  The picture is written into that copy, and
+ * another process, live-send.c, brings it from there into the layer: GIMP ends it if the layer goes meanwhile.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -106,122 +101,80 @@ read_rectangle (GeglBuffer *buffer, const GeglRectangle *rect, const Babl *forma
   return pixels;
 }
 
-/* The whole tiles of libgimp that have a pixel of the rectangle, also where they go beyond the layer. */
+/* Has the pixels of a rectangle brought from the copy into the layer.  What becomes of that does not matter: if the
+ * layer goes, changes its size or is locked meanwhile, it is looked at again soon. */
+static void
+send (GimpLayer *layer, GimpLayer *copy, const GeglRectangle *changed)
+{
+  GimpProcedure  *procedure = gimp_pdb_lookup_procedure (gimp_get_pdb (), CELD_LIVE_SEND);
+  GimpValueArray *values;
+
+  if (!procedure)
+    return;
+  values = gimp_procedure_run (procedure, "layer", layer, "copy", copy, "x", changed->x, "y", changed->y,
+                               "width", changed->width, "height", changed->height, NULL);
+  gimp_value_array_unref (values);
+}
+
+/* Replaces the part of the buffer that lies on the image, which begins at (x,y) of the buffer, by that of the picture.
+ * The rectangle outside which that changes nothing; it is empty if nothing is changed. */
 static GeglRectangle
-whole_tiles (const GeglRectangle *rect)
-{
-  GeglRectangle tiles;
-
-  gegl_rectangle_align (&tiles, rect,
-                        GEGL_RECTANGLE (0, 0, (int) gimp_tile_width (), (int) gimp_tile_height ()),
-                        GEGL_RECTANGLE_ALIGNMENT_SUPERSET);
-  return tiles;
-}
-
-/* Writes whole tiles of the layer, if it still has the size of what they were made from; whether it has.  The size is
- * asked for when the pixels are ready. */
-static gboolean
-send_row (GimpDrawable *drawable, GeglBuffer *pixels, const GeglRectangle *row)
-{
-  const Babl   *format = gegl_buffer_get_format (pixels);
-  guint8       *new = read_rectangle (pixels, row, format);
-  GeglBuffer   *there = new ? gimp_drawable_get_buffer (drawable) : NULL;
-  GeglRectangle extent;
-  gboolean      good = there && gegl_rectangle_equal (gegl_buffer_get_extent (there), gegl_buffer_get_extent (pixels));
-
-  if (good)
-    {
-      gegl_rectangle_bounding_box (&extent, gegl_buffer_get_extent (there), row);
-      gegl_buffer_set_extent (there, &extent);
-      gegl_buffer_set (there, row, 0, format, new, GEGL_AUTO_ROWSTRIDE);
-      gegl_buffer_flush (there); /* which sends them */
-    }
-  g_clear_object (&there);
-  g_free (new);
-  return good;
-}
-
-/* Writes the pixels of a rectangle of the layer, by rows of tiles, and has GIMP draw them.  If the layer is resized,
- * GIMP draws all of it. */
-static void
-send (GimpDrawable *drawable, GeglBuffer *pixels, const GeglRectangle *changed)
-{
-  GeglRectangle tiles = whole_tiles (changed), row = tiles;
-  int           bottom = tiles.y + tiles.height, side = (int) gimp_tile_height ();
-
-  while (row.y < bottom)
-    {
-      row.height = MIN (side, bottom - row.y);
-      if (!send_row (drawable, pixels, &row))
-        return;
-      row.y += row.height;
-    }
-  gimp_drawable_update (drawable, changed->x, changed->y, changed->width, changed->height);
-}
-
-/* `pixels` are those of the layer, of which the picture replaces the part that lies on the image, which begins at (x,y)
- * of the layer. */
-static void
-write_difference (GimpDrawable *drawable, GeglBuffer *pixels, GeglBuffer *picture, int x, int y)
+write_difference (GeglBuffer *buffer, GeglBuffer *picture, int x, int y)
 {
   const GeglRectangle *image = gegl_buffer_get_extent (picture);
-  const Babl          *format = gegl_buffer_get_format (pixels);
+  const Babl          *format = gegl_buffer_get_format (buffer);
+  int                  pixel = babl_format_get_bytes_per_pixel (format);
   GeglRectangle        rect, changed = { 0 };
   guint8              *old, *new;
 
-  if (!gegl_rectangle_intersect (&rect, gegl_buffer_get_extent (pixels),
+  if (!gegl_rectangle_intersect (&rect, gegl_buffer_get_extent (buffer),
                                  GEGL_RECTANGLE (x, y, image->width, image->height)))
-    return;
-  old = read_rectangle (pixels, &rect, format);
+    return changed;
+  old = read_rectangle (buffer, &rect, format);
   new = read_rectangle (picture, GEGL_RECTANGLE (rect.x - x, rect.y - y, rect.width, rect.height), format);
   if (old && new)
-    changed = find_difference (old, new, rect.width, rect.height, (gsize) babl_format_get_bytes_per_pixel (format));
+    changed = find_difference (old, new, rect.width, rect.height, (gsize) pixel);
   if (changed.width)
     {
-      gegl_buffer_set (pixels, &rect, 0, format, new, GEGL_AUTO_ROWSTRIDE);
+      const guint8 *first = new + ((gsize) changed.y * (gsize) rect.width + (gsize) changed.x) * (gsize) pixel;
+
       changed.x += rect.x;
       changed.y += rect.y;
-      send (drawable, pixels, &changed);
+      gegl_buffer_set (buffer, &changed, 0, format, first, rect.width * pixel);
     }
   g_free (old);
   g_free (new);
+  return changed;
 }
 
-/* The pixels of a layer as they are, in memory of their own; NULL: there are none. */
-static GeglBuffer *
-copy_layer (GimpLayer *layer, GimpImage *own)
-{
-  GimpLayer  *copy = own ? gimp_layer_new_from_drawable (GIMP_DRAWABLE (layer), own) : NULL;
-  GeglBuffer *buffer = copy ? gimp_drawable_get_buffer (GIMP_DRAWABLE (copy)) : NULL;
-  GeglBuffer *pixels = buffer ? gegl_buffer_dup (buffer) : NULL;
-
-  g_clear_object (&buffer);
-  if (copy)
-    gimp_item_delete (GIMP_ITEM (copy));
-  return pixels;
-}
-
-/* The layer may have been moved or cropped. */
+/* The layer may have been moved or cropped; so its copy has its place. */
 static void
 update_layer (GimpLayer *layer, GimpImage *own, GeglBuffer *picture)
 {
-  GimpDrawable *drawable = GIMP_DRAWABLE (layer);
-  GeglBuffer   *pixels = copy_layer (layer, own);
+  GimpLayer    *copy = own ? gimp_layer_new_from_drawable (GIMP_DRAWABLE (layer), own) : NULL;
+  GeglBuffer   *buffer = copy ? gimp_drawable_get_buffer (GIMP_DRAWABLE (copy)) : NULL;
+  GeglRectangle changed = { 0 };
   int           x = 0, y = 0;
 
-  gimp_drawable_get_offsets (drawable, &x, &y);
-  if (pixels)
-    write_difference (drawable, pixels, picture, -x, -y);
-  g_clear_object (&pixels);
+  if (buffer)
+    {
+      gimp_drawable_get_offsets (GIMP_DRAWABLE (copy), &x, &y);
+      changed = write_difference (buffer, picture, -x, -y);
+    }
+  g_clear_object (&buffer); /* which sends what was written into it */
+  if (changed.width)
+    send (layer, copy, &changed);
+  if (copy)
+    gimp_item_delete (GIMP_ITEM (copy));
 }
 
 void
-celd_live_write (GimpImage *image, GimpImage *own, CeldPicture picture, GeglBuffer *buffer)
+celd_live_write (GimpImage *image, GimpImage *own, CeldPicture picture, GeglBuffer *buffer, gboolean make)
 {
   GimpLayer *layer = celd_results_find_unlocked (image, celd_pictures[picture].argument);
 
   if (layer)
     update_layer (layer, own, buffer);
-  else if (!celd_results_find (image, celd_pictures[picture].argument))
+  else if (make && !celd_results_find (image, celd_pictures[picture].argument))
     add_layer (image, picture, buffer);
 }

@@ -83,6 +83,17 @@ show_problems (Live *live, GArray *problems)
   celd_live_messages_set (live->messages, problems);
 }
 
+/* A layer that has gone is not made again, or it would come back at once. */
+static void
+write_picture (Live *live, CeldPicture picture, GeglBuffer *buffer)
+{
+  gboolean make = !(live->layers & 1u << picture);
+
+  celd_live_write (live->image, celd_live_follower_image (live->follower), picture, buffer, make);
+  live->layers |= 1u << picture;
+  gimp_displays_flush ();
+}
+
 /* A CeldLiveAnswered. */
 static void
 answered (CeldLiveAnswer *answer, gpointer data)
@@ -92,11 +103,7 @@ answered (CeldLiveAnswer *answer, gpointer data)
   if (answer->pixels)
     celd_live_view_put (live->view, answer);
   if (answer->buffer && live->format[answer->picture] && gimp_image_is_valid (live->image))
-    {
-      celd_live_write (live->image, celd_live_follower_image (live->follower), (CeldPicture) answer->picture,
-                       answer->buffer);
-      gimp_displays_flush ();
-    }
+    write_picture (live, (CeldPicture) answer->picture, answer->buffer);
   if (answer->problems)
     show_problems (live, answer->problems);
   if (answer->error)
@@ -108,7 +115,7 @@ answered (CeldLiveAnswer *answer, gpointer data)
 /* ------------------------------------------------------------------ what is written */
 
 /* Looks for the layers that are written: those that the group has, and those of what is shown.  A layer that has gone
- * was removed, or its making undone: then nothing is written any more, or it would come back at once. */
+ * was removed, or its making undone: then nothing is written any more. */
 static void
 look_for_layers (Live *live)
 {
@@ -119,7 +126,8 @@ look_for_layers (Live *live)
   for (int picture = 0; picture < CELD_POPUP_PICTURES; picture++)
     {
       format[picture] = celd_live_write_format (live->image, (CeldPicture) picture);
-      gone            = gone || (live->layers & 1u << picture && !format[picture]);
+      gone            = gone || (live->layers & 1u << picture && !format[picture] &&
+                      !celd_results_find (live->image, celd_pictures[picture].argument));
       live->layers   |= format[picture] ? 1u << picture : 0;
     }
   for (int i = 0; i < view->n; i++)

@@ -6,6 +6,7 @@
  *   live-turn.c       the relief that turns
  *   live-messages.c   the list of messages below it
  *   live-write.c      writes pictures into the group of results, without steps of undo
+ *   live-send.c       the procedure that brings their pixels into a layer, in a process of its own
  *
  * What takes time is done by the thread of live-solver.h.  GIMP is called in the main thread alone.
  *
@@ -113,8 +114,8 @@ const Babl *celd_live_write_format (GimpImage *image, CeldPicture picture);
 /* The format for the layer of a picture that is still to be made. */
 const Babl *celd_live_write_new_format (GimpImage *image, CeldPicture picture);
 
-/* Writes a picture into its layer where that differs, without a step of undo; the group or the layer is made, with one
- * step, if there is none.  A layer whose pixels are locked stays as it is.  `own` is for copies. */
-void celd_live_write (GimpImage *image, GimpImage *own, CeldPicture picture, GeglBuffer *buffer);
+/* Writes a picture into its layer where that differs, without a step of undo; if there is none, the group or the layer
+ * is made, with one step, if `make` says so.  A layer whose pixels are locked stays as it is.  `own` is for copies. */
+void celd_live_write (GimpImage *image, GimpImage *own, CeldPicture picture, GeglBuffer *buffer, gboolean make);
 
 #endif

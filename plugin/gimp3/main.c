@@ -25,7 +25,7 @@ query_procedures (GimpPlugIn *plug_in)
   (void) plug_in;
   for (gsize i = 0; i < G_N_ELEMENTS (procedures); i++)
     names = g_list_append (names, g_strdup (procedures[i]->name));
-  return names;
+  return g_list_append (names, g_strdup (CELD_LIVE_SEND));
 }
 
 /* By its file: themes find a name only in folders that they know, and in the system only when their caches are new. */
@@ -38,9 +38,12 @@ set_icon (GimpProcedure *procedure)
   g_object_unref (file);
 }
 
+/* All but one have an entry in the menu. */
 static GimpProcedure *
 create_procedure (GimpPlugIn *plug_in, const char *name)
 {
+  if (!g_strcmp0 (name, CELD_LIVE_SEND))
+    return celd_live_send_create (plug_in);
   for (gsize i = 0; i < G_N_ELEMENTS (procedures); i++)
     if (!g_strcmp0 (procedures[i]->name, name))
       {

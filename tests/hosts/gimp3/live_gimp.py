@@ -97,7 +97,7 @@ class Gimp:
             raise RuntimeError(f'there is no window "{name}"')
         return found[-1]
 
-    def tell(self, code):
+    def tell(self, code, patience=PATIENCE):
         """Runs code in GIMP's Python; returns what it gave to answer()."""
         for name in ('answer.txt', 'error.txt'):
             if os.path.exists(os.path.join(OUT, name)):
@@ -105,7 +105,7 @@ class Gimp:
         with open(os.path.join(OUT, 'do.new'), 'w', encoding='utf-8') as file:
             file.write(code)
         os.rename(os.path.join(OUT, 'do.new'), os.path.join(OUT, 'do.py'))
-        if not wait_for(lambda: not os.path.exists(os.path.join(OUT, 'do.py')), pause=0.02):
+        if not wait_for(lambda: not os.path.exists(os.path.join(OUT, 'do.py')), patience, pause=0.02):
             raise RuntimeError('GIMP does not answer')
         if os.path.exists(os.path.join(OUT, 'error.txt')):
             raise RuntimeError(open(os.path.join(OUT, 'error.txt'), encoding='utf-8').read())

@@ -22,7 +22,7 @@ def entries_of_the_menu_have_an_icon():
     with open(os.path.join(Gimp.directory(), 'pluginrc'), encoding='utf-8', errors='replace') as f:
         kept = f.read().split('(proc-def "')
     icon = re.compile(r'\(icon image-file -?\d+ "([^"]+)"\)')
-    icons = [icon.search(entry) for entry in kept if entry.startswith('plug-in-celdepth-')]
+    icons = [icon.search(entry) for entry in kept if entry.startswith('plug-in-celdepth-') and '(menu-path' in entry]
     found = {os.path.exists(Gio.File.new_for_uri(each[1]).get_path()) if each else False for each in icons}
     check(len(icons) == 9 and found == {True}, f'{len(icons)} entries have an icon')
 
