@@ -16,6 +16,7 @@ EXAMPLES, OUT = os.environ['CELDEPTH_EXAMPLES'], os.environ['CELDEPTH_OUT']
 QUIET = Gimp.RunMode.NONINTERACTIVE
 PRECISIONS = {8: Gimp.Precision.U8_NON_LINEAR, 32: Gimp.Precision.FLOAT_LINEAR}
 FORMATS = {8: ("R'G'B' u8", np.uint8), 32: ('RGB float', np.float32)}
+RIM = {'rim-light': 0.8, 'specular': 0.5}
 ALPHA = {8: ('A u8', np.uint8), 32: ('A float', np.float32)}
 
 
@@ -82,10 +83,22 @@ def people(bits):
     depth = step(levels, 'depth-smooth', 'depth', {'aux': drawing, 'aux2': scribbles})
     if bits == 32:  # depth of 8 bits moves by other parts of a pixel
         step(drawing, 'stereo', 'stereo', {'aux': depth, 'aux2': levels})
-        step(drawing, 'compose', 'compose', {'aux': levels, 'aux2': scribbles}, between=0.5, scale=0.7)
-        step(drawing, 'arap-register', 'confidence', {'aux': drawing, 'aux2': levels}, result='confidence')
+        for name, result in (('compose', 'art'), ('composed-levels', 'levels')):
+            step(drawing, 'compose', name, {'aux': levels, 'aux2': scribbles}, result=result, between=0.5, scale=0.7)
+        for result in ('displacement', 'warped', 'confidence'):
+            step(drawing, 'arap-register', result, {'aux': drawing, 'aux2': levels}, result=result)
+        for result in ('layer', 'matte'):
+            step(order, 'depth-expand', 'expanded-' + result, {'aux': drawing, 'aux2': labels}, result=result)
+        step(levels, 'lumo-shade', 'lumo-art', {'aux': drawing}, result='art')
+        step(levels, 'lumo-shade', 'rim', {'aux': drawing}, result='rim', **RIM)
     step(drawing, 'arap-deform', 'deformed', {'aux4': scribbles, 'aux5': arrows}, handles='200,150 -> 210,140')
-    step(drawing, 'depth-propagate', 'propagated', {'aux': drawing, 'aux2': scribbles, 'aux4': arrows})
+    step(drawing, 'arap-deform', 'deformed-levels', {'aux4': scribbles, 'aux5': arrows}, handles='200,150 -> 210,140',
+         result='levels')
+    for name, result in (('propagated', 'labels'), ('propagated-scribbles', 'scribbles'),
+                         ('propagated-depth', 'depth'), ('propagated-confidence', 'confidence')):
+        step(drawing, 'depth-propagate', name, {'aux': drawing, 'aux2': scribbles, 'aux4': arrows}, result=result)
+    for result in ('closures', 'problems'):
+        step(drawing, 'lazybrush-segment', 'segment-' + result, {'aux': scribbles}, result=result)
     step(drawing, 'depth-propagate', 'propagated-levels', {'aux': drawing, 'aux2': labels, 'aux3': levels},
          result='levels', flats=True)
     step(levels, 'relief', 'relief', {'aux': drawing, 'aux2': depth})
@@ -96,7 +109,7 @@ def people(bits):
         step(levels, 'lumo-shade', result, {'aux': drawing}, result=result)
     step(levels, 'lumo-shade', 'tone', {'aux': drawing}, result='tone', **{'light-model': 'half-lambert'})
     step(drawing, 'depth-exact', 'exact', {'aux': scribbles, 'aux2': arrows}, tolerance=1e-6)
-    for result in ('labels', 'order', 'levels', 'depth', 'normals', 'shading', 'problems'):
+    for result in ('labels', 'order', 'levels', 'depth', 'normals', 'shading', 'problems', 'suggestions'):
         step(drawing, 'popup', 'popup-' + result, {'aux': scribbles, 'aux2': arrows}, result=result)
     arrows.set_offsets(70, -40)  # which filters do not read
     step(drawing, 'popup', 'popup-moved', {'aux': scribbles, 'aux2': arrows}, result='levels')

@@ -20,10 +20,13 @@ WANTED = {'popup-' + name: name for name in ('labels', 'order', 'levels', 'depth
 WANTED.update({name: name for name in ('labels', 'propagated', 'order', 'levels', 'depth', 'normals', 'shading', 'tone',
                                        'occlusion', 'popup-normals', 'popup-shading', 'popup-problems',
                                        'popup-contours', 'contours-segmentation', 'contours-depth', 'exact',
-                                       'deformed', 'propagated-levels', 'enhanced-art', 'enhanced-view',
+                                       'popup-suggestions', 'segment-closures', 'segment-problems', 'deformed',
+                                       'deformed-levels', 'propagated-scribbles', 'propagated-levels',
+                                       'propagated-depth', 'propagated-confidence', 'enhanced-art', 'enhanced-view',
                                        'enhanced-layer')})
 WANTED['popup-moved'] = 'levels'  # a layer that was moved counts as if it were not
-EXACT_ONLY = ('relief', 'stereo', 'compose', 'confidence')
+EXACT_ONLY = ('relief', 'stereo', 'compose', 'composed-levels', 'displacement', 'warped', 'confidence',
+              'expanded-layer', 'expanded-matte', 'lumo-art', 'rim')
 
 
 def encode(linear):
