@@ -1,9 +1,12 @@
-/* A procedure for Live alone: brings pixels into a layer, without a step of undo, in a process of its own.
+/* A procedure for Live alone: brings pixels into a layer, without a step of undo, in another process than the window's.
  *
  * GIMP ends a plug-in that writes a tile which is not there any more, or may not be written.  Between any two messages
  * of a plug-in GIMP may do what the artist has asked for, and each tile is a message: so a layer can go, shrink or be
  * locked while it is written to, whatever was asked before.  GIMP has no other way of writing without a step of undo.
- * What it ends is this process, and Live goes on.
+ * What it ends is a process without a window, and Live goes on.
+ *
+ * That is the process in which Live was chosen: it has nothing else to do, and brings pixels in a few milliseconds.  If it
+ * has been ended, one is started each time, which takes a third of a second.
  *
  * To have that seldom, pixels are written by rows of tiles, and the size of the layer is asked for before each.  Whole
  * tiles are written, also where they go beyond the layer, since GEGL would first read a tile that is written in part; a
@@ -12,6 +15,8 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "gimp3.h"
+
+#include <unistd.h>
 
 /* The whole tiles of libgimp that have a pixel of the rectangle, also where they go beyond the layer. */
 static GeglRectangle
@@ -94,10 +99,10 @@ run (GimpProcedure *procedure, GimpProcedureConfig *config, gpointer run_data)
 }
 
 /* Only Live calls it, and nobody reads its texts but in the Procedure Browser: they are not translated. */
-GimpProcedure *
-celd_live_send_create (GimpPlugIn *plug_in)
+static GimpProcedure *
+create (GimpPlugIn *plug_in, const char *name, GimpPDBProcType type)
 {
-  GimpProcedure *procedure = gimp_procedure_new (plug_in, CELD_LIVE_SEND, GIMP_PDB_PROC_TYPE_PLUGIN, run, NULL, NULL);
+  GimpProcedure *procedure = gimp_procedure_new (plug_in, name, type, run, NULL, NULL);
 
   gimp_procedure_set_documentation (procedure, "A part of Live: brings pixels into a layer",
                                     "Copies a rectangle between layers of one size and format, without a step of undo.",
@@ -110,5 +115,22 @@ celd_live_send_create (GimpPlugIn *plug_in)
   gimp_procedure_add_int_argument (procedure, "width", "Width", "Of the rectangle", 1, G_MAXINT, 1, G_PARAM_READWRITE);
   gimp_procedure_add_int_argument (procedure, "height", "Height", "Of the rectangle", 1, G_MAXINT, 1,
                                    G_PARAM_READWRITE);
+  return procedure;
+}
+
+GimpProcedure *
+celd_live_send_create (GimpPlugIn *plug_in)
+{
+  return create (plug_in, CELD_LIVE_SEND, GIMP_PDB_PROC_TYPE_PLUGIN);
+}
+
+GimpProcedure *
+celd_live_send_create_here (GimpPlugIn *plug_in)
+{
+  char          *name = g_strdup_printf (CELD_LIVE_SEND "-%d", (int) getpid ());
+  GimpProcedure *procedure = create (plug_in, name, GIMP_PDB_PROC_TYPE_TEMPORARY);
+
+  gimp_plug_in_add_temp_procedure (plug_in, procedure);
+  g_free (name);
   return procedure;
 }

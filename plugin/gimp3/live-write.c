@@ -102,11 +102,14 @@ read_rectangle (GeglBuffer *buffer, const GeglRectangle *rect, const Babl *forma
 }
 
 /* Has the pixels of a rectangle brought from the copy into the layer.  What becomes of that does not matter: if the
- * layer goes, changes its size or is locked meanwhile, it is looked at again soon. */
+ * layer goes, changes its size or is locked meanwhile, it is looked at again soon.  If GIMP has ended the process of the
+ * sender, one has to be started each time. */
 static void
-send (GimpLayer *layer, GimpLayer *copy, const GeglRectangle *changed)
+send (const char *sender, GimpLayer *layer, GimpLayer *copy, const GeglRectangle *changed)
 {
-  GimpProcedure  *procedure = gimp_pdb_lookup_procedure (gimp_get_pdb (), CELD_LIVE_SEND);
+  GimpPDB        *pdb = gimp_get_pdb ();
+  GimpProcedure  *procedure = gimp_pdb_lookup_procedure (
+    pdb, gimp_pdb_procedure_exists (pdb, sender) ? sender : CELD_LIVE_SEND);
   GimpValueArray *values;
 
   if (!procedure)
@@ -149,9 +152,9 @@ write_difference (GeglBuffer *buffer, GeglBuffer *picture, int x, int y)
 
 /* The layer may have been moved or cropped; so its copy has its place. */
 static void
-update_layer (GimpLayer *layer, GimpImage *own, GeglBuffer *picture)
+update_layer (const CeldLiveTarget *target, GimpLayer *layer, GeglBuffer *picture)
 {
-  GimpLayer    *copy = own ? gimp_layer_new_from_drawable (GIMP_DRAWABLE (layer), own) : NULL;
+  GimpLayer    *copy = target->own ? gimp_layer_new_from_drawable (GIMP_DRAWABLE (layer), target->own) : NULL;
   GeglBuffer   *buffer = copy ? gimp_drawable_get_buffer (GIMP_DRAWABLE (copy)) : NULL;
   GeglRectangle changed = { 0 };
   int           x = 0, y = 0;
@@ -163,18 +166,18 @@ update_layer (GimpLayer *layer, GimpImage *own, GeglBuffer *picture)
     }
   g_clear_object (&buffer); /* which sends what was written into it */
   if (changed.width)
-    send (layer, copy, &changed);
+    send (target->sender, layer, copy, &changed);
   if (copy)
     gimp_item_delete (GIMP_ITEM (copy));
 }
 
 void
-celd_live_write (GimpImage *image, GimpImage *own, CeldPicture picture, GeglBuffer *buffer, gboolean make)
+celd_live_write (const CeldLiveTarget *target, CeldPicture picture, GeglBuffer *buffer, gboolean make)
 {
-  GimpLayer *layer = celd_results_find_unlocked (image, celd_pictures[picture].argument);
+  GimpLayer *layer = celd_results_find_unlocked (target->image, celd_pictures[picture].argument);
 
   if (layer)
-    update_layer (layer, own, buffer);
-  else if (make && !celd_results_find (image, celd_pictures[picture].argument))
-    add_layer (image, picture, buffer);
+    update_layer (target, layer, buffer);
+  else if (make && !celd_results_find (target->image, celd_pictures[picture].argument))
+    add_layer (target->image, picture, buffer);
 }

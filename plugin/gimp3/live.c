@@ -1,7 +1,8 @@
 /* Live: a window that shows regions, depth and light while the artist paints with GIMP's own brushes.
  *
  * The plug-in stays open, and GIMP goes on: a tick reads the layers, the solver's thread makes pictures of what has
- * changed, and these are shown when they come.
+ * changed, and these are shown when they come.  The window has a process of its own, for the reason that live-send.c
+ * gives.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -21,6 +22,7 @@
 typedef struct
 {
   GimpImage        *image;
+  const char       *sender;                     /* a procedure of the process that waits for the window to be closed */
   GMainLoop        *loop;
   CeldLiveFollower *follower;
   CeldLiveSolver   *solver;
@@ -87,9 +89,9 @@ show_problems (Live *live, GArray *problems)
 static void
 write_picture (Live *live, CeldPicture picture, GeglBuffer *buffer)
 {
-  gboolean make = !(live->layers & 1u << picture);
+  CeldLiveTarget target = { live->image, celd_live_follower_image (live->follower), live->sender };
 
-  celd_live_write (live->image, celd_live_follower_image (live->follower), picture, buffer, make);
+  celd_live_write (&target, picture, buffer, !(live->layers & 1u << picture));
   live->layers |= 1u << picture;
   gimp_displays_flush ();
 }
@@ -309,9 +311,9 @@ open_window (Live *live)
 }
 
 static void
-show_window (GimpImage *image, GimpProcedureConfig *config)
+show_window (GimpImage *image, const char *sender, GimpProcedureConfig *config)
 {
-  Live live = { .image = image, .loop = g_main_loop_new (NULL, FALSE) };
+  Live live = { .image = image, .sender = sender, .loop = g_main_loop_new (NULL, FALSE) };
 
   gimp_ui_init ("celdepth");
   live.follower = celd_live_follower_new (image, config);
@@ -326,15 +328,63 @@ show_window (GimpImage *image, GimpProcedureConfig *config)
   g_main_loop_unref (live.loop);
 }
 
+/* ------------------------------------------------------------------ the process of the window */
+
+static GimpValueArray *
+run_window (GimpProcedure *procedure, GimpProcedureConfig *config, gpointer run_data)
+{
+  GimpImage *image;
+  char      *sender;
+  int        number;
+
+  (void) run_data;
+#ifdef G_OS_UNIX
+  setpriority (PRIO_PROCESS, 0, NICE); /* also of the threads that are made from now on */
+#endif
+  /* An item may go between any two calls: that is no error which the artist has to hear of. */
+  gimp_plug_in_set_pdb_error_handler (gimp_get_plug_in (), GIMP_PDB_ERROR_HANDLER_PLUGIN);
+  gegl_init (NULL, NULL);
+  g_object_get (config, "image", &number, "sender", &sender, NULL);
+  image = gimp_image_get_by_id (number);
+  if (image)
+    show_window (image, sender, config);
+  g_free (sender);
+  return gimp_procedure_new_return_values (procedure, GIMP_PDB_SUCCESS, NULL);
+}
+
+/* Only Live calls it, and nobody reads its texts but in the Procedure Browser: they are not translated. */
+GimpProcedure *
+celd_live_window_create (GimpPlugIn *plug_in)
+{
+  GimpProcedure *procedure = gimp_procedure_new (plug_in, CELD_LIVE_WINDOW, GIMP_PDB_PROC_TYPE_PLUGIN, run_window, NULL,
+                                                 NULL);
+
+  gimp_procedure_set_documentation (procedure, "A part of Live: its window", "Returns when the window is closed.", NULL);
+  gimp_procedure_set_attribution (procedure, "The authors of celdepth", "LGPL-3.0-or-later", "2026");
+  gimp_procedure_add_int_argument (procedure, "image", "Image", "The number of the image that is followed", 0, G_MAXINT,
+                                   0, G_PARAM_READWRITE);
+  gimp_procedure_add_string_argument (procedure, "sender", "Sender", "The procedure that brings pixels into a layer", "",
+                                      G_PARAM_READWRITE);
+  celd_settings_add_arguments (procedure, CELD_FOR_LIVE);
+  return procedure;
+}
+
 /* ------------------------------------------------------------------ the procedure */
 
+/* This process waits for the window to be closed, and meanwhile writes what that has it write.  GIMP may end it at that,
+ * and the window stays.  The image is given by its number: GIMP does not close an image before a call that has it
+ * returns. */
 static GimpValueArray *
 run (GimpProcedure *procedure, GimpRunMode run_mode, GimpImage *image, GimpDrawable **drawables,
      GimpProcedureConfig *config, gpointer run_data)
 {
-  GError *error = NULL;
+  GimpPlugIn     *plug_in = gimp_get_plug_in ();
+  GError         *error = NULL;
+  GimpValueArray *values;
+  GimpProcedure  *sender, *window;
 
   (void) drawables;
+  (void) config;
   (void) run_data;
   if (run_mode == GIMP_RUN_NONINTERACTIVE)
     {
@@ -342,28 +392,21 @@ run (GimpProcedure *procedure, GimpRunMode run_mode, GimpImage *image, GimpDrawa
                            _ ("Live is a window for artists. Scripts use plug-in-celdepth-popup."));
       return gimp_procedure_new_return_values (procedure, GIMP_PDB_CALLING_ERROR, error);
     }
-#ifdef G_OS_UNIX
-  setpriority (PRIO_PROCESS, 0, NICE); /* also of the threads that are made from now on */
-#endif
-  /* An item may go between any two calls: that is no error which the artist has to hear of. */
-  gimp_plug_in_set_pdb_error_handler (gimp_get_plug_in (), GIMP_PDB_ERROR_HANDLER_PLUGIN);
-  gegl_init (NULL, NULL);
-  show_window (image, config);
+  gimp_plug_in_set_pdb_error_handler (plug_in, GIMP_PDB_ERROR_HANDLER_PLUGIN);
+  sender = celd_live_send_create_here (plug_in);
+  window = gimp_pdb_lookup_procedure (gimp_get_pdb (), CELD_LIVE_WINDOW);
+  values = gimp_procedure_run (window, "image", gimp_image_get_id (image), "sender",
+                               gimp_procedure_get_name (sender), NULL);
+  gimp_value_array_unref (values);
+  g_object_unref (sender);
   return gimp_procedure_new_return_values (procedure, GIMP_PDB_SUCCESS, NULL);
 }
 
-static void
-add_arguments (GimpProcedure *procedure)
-{
-  celd_settings_add_arguments (procedure, CELD_FOR_LIVE);
-}
-
 const CeldProcedure celd_live_procedure = {
-  .name          = "plug-in-celdepth-live",
-  .menu_label    = N_ ("_Live..."),
-  .blurb         = N_ ("Shows regions, depth and light in a window beside the canvas, while you paint"),
-  .help          = N_ ("Follows the layers Drawing, Scribbles, Arrows, Contours, Corrections and Hidden in mid-stroke, "
-                       "with the settings that are kept with the image. The window closes with the image."),
-  .add_arguments = add_arguments,
-  .run           = run,
+  .name       = "plug-in-celdepth-live",
+  .menu_label = N_ ("_Live..."),
+  .blurb      = N_ ("Shows regions, depth and light in a window beside the canvas, while you paint"),
+  .help       = N_ ("Follows the layers Drawing, Scribbles, Arrows, Contours, Corrections and Hidden in mid-stroke, "
+                    "with the settings that are kept with the image. The window closes with the image."),
+  .run        = run,
 };

@@ -6,7 +6,7 @@
  *   live-turn.c       the relief that turns
  *   live-messages.c   the list of messages below it
  *   live-write.c      writes pictures into the group of results, without steps of undo
- *   live-send.c       the procedure that brings their pixels into a layer, in a process of its own
+ *   live-send.c       the procedure that brings their pixels into a layer, in another process
  *
  * What takes time is done by the thread of live-solver.h.  GIMP is called in the main thread alone.
  *
@@ -114,8 +114,11 @@ const Babl *celd_live_write_format (GimpImage *image, CeldPicture picture);
 /* The format for the layer of a picture that is still to be made. */
 const Babl *celd_live_write_new_format (GimpImage *image, CeldPicture picture);
 
+/* The image that is written to, where copies of its layers belong, and the procedure that brings pixels into a layer. */
+typedef struct { GimpImage *image, *own; const char *sender; } CeldLiveTarget;
+
 /* Writes a picture into its layer where that differs, without a step of undo; if there is none, the group or the layer
- * is made, with one step, if `make` says so.  A layer whose pixels are locked stays as it is.  `own` is for copies. */
-void celd_live_write (GimpImage *image, GimpImage *own, CeldPicture picture, GeglBuffer *buffer, gboolean make);
+ * is made, with one step, if `make` says so.  A layer whose pixels are locked stays as it is. */
+void celd_live_write (const CeldLiveTarget *target, CeldPicture picture, GeglBuffer *buffer, gboolean make);
 
 #endif
