@@ -4,6 +4,7 @@
  *   layers.c     layers of an image, by their names
  *   settings.c   arguments made from the table of settings, and settings remembered with an image
  *   presets.c    presets of settings
+ *   filters.c    presets of filters
  *   paths.c      paths that are arrows
  *   files.c      files that are written
  *   results.c    the group with the results
@@ -177,6 +178,11 @@ void celd_preset_add_argument (GimpProcedure *procedure);
 void celd_preset_apply        (GimpProcedureConfig *config);
 void celd_preset_follow       (GimpProcedureConfig *config);
 
+/* ------------------------------------------------------------------ filters.c */
+
+/* Gives the filters that have settings of presets these presets, if the artist has none of his own. */
+void celd_filters_write_presets (void);
+
 /* ------------------------------------------------------------------ results.c */
 
 gboolean celd_results_is_group (GimpItem *item);
@@ -220,11 +226,16 @@ GimpLayer *celd_results_find (GimpImage *image, const char *mark);
 /* The same if its pixels may be written: they are not locked. */
 GimpLayer *celd_results_find_unlocked (GimpImage *image, const char *mark);
 
-/* ------------------------------------------------------------------ live-send.c */
+/* ------------------------------------------------------------------ live.c, live-send.c */
 
-#define CELD_LIVE_SEND "plug-in-celdepth-live-send"
+/* Procedures that are parts of Live: its window; and what brings pixels into a layer, in a process that is started for
+ * it, or in this one, for which it gets a name of its own. */
+#define CELD_LIVE_WINDOW "plug-in-celdepth-live-window"
+#define CELD_LIVE_SEND   "plug-in-celdepth-live-send"
 
-GimpProcedure *celd_live_send_create (GimpPlugIn *plug_in);
+GimpProcedure *celd_live_window_create    (GimpPlugIn *plug_in);
+GimpProcedure *celd_live_send_create      (GimpPlugIn *plug_in);
+GimpProcedure *celd_live_send_create_here (GimpPlugIn *plug_in);
 
 /* ------------------------------------------------------------------ effect.c */
 

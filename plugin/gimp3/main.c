@@ -11,6 +11,13 @@ static const CeldProcedure *const procedures[] = {
   &celd_group_procedure, &celd_export_procedure, &celd_mesh_procedure, &celd_live_procedure,
 };
 
+/* Procedures without an entry in the menu. */
+static const struct
+{
+  const char      *name;
+  GimpProcedure *(*create) (GimpPlugIn *plug_in);
+} parts[] = { { CELD_LIVE_WINDOW, celd_live_window_create }, { CELD_LIVE_SEND, celd_live_send_create } };
+
 typedef struct { GimpPlugIn parent_instance; } CeldPlugIn;
 typedef struct { GimpPlugInClass parent_class; } CeldPlugInClass;
 
@@ -23,9 +30,12 @@ query_procedures (GimpPlugIn *plug_in)
   GList *names = NULL;
 
   (void) plug_in;
+  celd_filters_write_presets ();
   for (gsize i = 0; i < G_N_ELEMENTS (procedures); i++)
     names = g_list_append (names, g_strdup (procedures[i]->name));
-  return g_list_append (names, g_strdup (CELD_LIVE_SEND));
+  for (gsize i = 0; i < G_N_ELEMENTS (parts); i++)
+    names = g_list_append (names, g_strdup (parts[i].name));
+  return names;
 }
 
 /* By its file: themes find a name only in folders that they know, and in the system only when their caches are new. */
@@ -38,12 +48,12 @@ set_icon (GimpProcedure *procedure)
   g_object_unref (file);
 }
 
-/* All but one have an entry in the menu. */
 static GimpProcedure *
 create_procedure (GimpPlugIn *plug_in, const char *name)
 {
-  if (!g_strcmp0 (name, CELD_LIVE_SEND))
-    return celd_live_send_create (plug_in);
+  for (gsize i = 0; i < G_N_ELEMENTS (parts); i++)
+    if (!g_strcmp0 (parts[i].name, name))
+      return parts[i].create (plug_in);
   for (gsize i = 0; i < G_N_ELEMENTS (procedures); i++)
     if (!g_strcmp0 (procedures[i]->name, name))
       {
@@ -60,7 +70,8 @@ create_procedure (GimpPlugIn *plug_in, const char *name)
         set_icon (procedure);
         gimp_procedure_set_documentation (procedure, _ (p->blurb), _ (p->help), NULL);
         gimp_procedure_set_attribution (procedure, "The authors of celdepth", "LGPL-3.0-or-later", "2026");
-        p->add_arguments (procedure);
+        if (p->add_arguments)
+          p->add_arguments (procedure);
         return procedure;
       }
   return NULL;
