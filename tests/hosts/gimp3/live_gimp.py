@@ -77,7 +77,7 @@ class Gimp:
         return self
 
     def __exit__(self, *error):
-        open(os.path.join(OUT, 'stop'), 'w').close()
+        self.stop_host()
         for process in reversed(self.started):
             process.kill()
             process.wait()
@@ -89,6 +89,10 @@ class Gimp:
         return process
 
     # -------------------------------------------------------------- the host
+
+    def stop_host(self):
+        """Ends what tell() talks to."""
+        open(os.path.join(OUT, 'stop'), 'w').close()
 
     def window(self, name):
         """Waits for a window of this name."""
