@@ -12,7 +12,7 @@
 #include <sys/resource.h>
 #endif
 
-#define NICE      5   /* of the plug-in and its threads: GIMP comes first where processors are scarce; chosen */
+#define NICE      5   /* above GIMP's: GIMP comes first where processors are scarce; chosen */
 #define TICK      40  /* milliseconds between ticks at least; chosen */
 #define REST      8   /* times as long as a tick took until the next one, so that GIMP has time to paint; chosen */
 #define MOST_REST 1000 /* milliseconds until the next one: a tick that waits for a busy GIMP takes seconds; chosen */
@@ -339,7 +339,7 @@ run_window (GimpProcedure *procedure, GimpProcedureConfig *config, gpointer run_
 
   (void) run_data;
 #ifdef G_OS_UNIX
-  setpriority (PRIO_PROCESS, 0, NICE); /* also of the threads that are made from now on */
+  setpriority (PRIO_PROCESS, 0, getpriority (PRIO_PROCESS, 0) + NICE); /* also of threads that are made from now on */
 #endif
   /* An item may go between any two calls: that is no error which the artist has to hear of. */
   gimp_plug_in_set_pdb_error_handler (gimp_get_plug_in (), GIMP_PDB_ERROR_HANDLER_PLUGIN);
