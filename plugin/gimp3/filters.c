@@ -1,8 +1,8 @@
 /* Looks as presets of filters: those of the operations that have their settings.
  *
- * GIMP knows presets of a filter only from a file in the user's own folder, which it writes when the user saves one or has
- * used the filter, and looks nowhere else (gimp_operation_config_get_file () of GIMP).  So the plug-in writes the file when
- * GIMP asks for its procedures, which it does once after an installation; a file that is there is the user's.
+ * GIMP knows presets of a filter only from a file in the user's own folder, which it writes when the user saves one or
+ * has used the filter, and looks nowhere else (gimp_operation_config_get_file () of GIMP).  So the plug-in writes the
+ * file when GIMP asks for its procedures, which it does once after an installation; a file that is there is the user's.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */

@@ -1,12 +1,12 @@
-/* A procedure for Live alone: brings pixels into a layer, without a step of undo, in another process than the window's.
+/* A procedure for Live alone: brings pixels into a layer, without a step of undo, in a process without a window.
  *
  * GIMP ends a plug-in that writes a tile which is not there any more, or may not be written.  Between any two messages
  * of a plug-in GIMP may do what the artist has asked for, and each tile is a message: so a layer can go, shrink or be
  * locked while it is written to, whatever was asked before.  GIMP has no other way of writing without a step of undo.
- * What it ends is a process without a window, and Live goes on.
+ * What it ends is this process, and Live goes on.
  *
- * That is the process in which Live was chosen: it has nothing else to do, and brings pixels in a few milliseconds.  If it
- * has been ended, one is started each time, which takes a third of a second.
+ * It is the process in which Live was chosen: that has nothing else to do, and brings pixels in a few milliseconds.  If
+ * it has been ended, one is started each time, which takes a third of a second.
  *
  * To have that seldom, pixels are written by rows of tiles, and the size of the layer is asked for before each.  Whole
  * tiles are written, also where they go beyond the layer, since GEGL would first read a tile that is written in part; a

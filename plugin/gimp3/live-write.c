@@ -102,8 +102,8 @@ read_rectangle (GeglBuffer *buffer, const GeglRectangle *rect, const Babl *forma
 }
 
 /* Has the pixels of a rectangle brought from the copy into the layer.  What becomes of that does not matter: if the
- * layer goes, changes its size or is locked meanwhile, it is looked at again soon.  If GIMP has ended the process of the
- * sender, one has to be started each time. */
+ * layer goes, changes its size or is locked meanwhile, it is looked at again soon.  If GIMP has ended the process of
+ * the sender, one has to be started each time. */
 static void
 send (const char *sender, GimpLayer *layer, GimpLayer *copy, const GeglRectangle *changed)
 {

@@ -359,20 +359,21 @@ celd_live_window_create (GimpPlugIn *plug_in)
   GimpProcedure *procedure = gimp_procedure_new (plug_in, CELD_LIVE_WINDOW, GIMP_PDB_PROC_TYPE_PLUGIN, run_window, NULL,
                                                  NULL);
 
-  gimp_procedure_set_documentation (procedure, "A part of Live: its window", "Returns when the window is closed.", NULL);
+  gimp_procedure_set_documentation (procedure, "A part of Live: its window", "Returns when the window is closed.",
+                                    NULL);
   gimp_procedure_set_attribution (procedure, "The authors of celdepth", "LGPL-3.0-or-later", "2026");
   gimp_procedure_add_int_argument (procedure, "image", "Image", "The number of the image that is followed", 0, G_MAXINT,
                                    0, G_PARAM_READWRITE);
-  gimp_procedure_add_string_argument (procedure, "sender", "Sender", "The procedure that brings pixels into a layer", "",
-                                      G_PARAM_READWRITE);
+  gimp_procedure_add_string_argument (procedure, "sender", "Sender", "The procedure that brings pixels into a layer",
+                                      "", G_PARAM_READWRITE);
   celd_settings_add_arguments (procedure, CELD_FOR_LIVE);
   return procedure;
 }
 
 /* ------------------------------------------------------------------ the procedure */
 
-/* This process waits for the window to be closed, and meanwhile writes what that has it write.  GIMP may end it at that,
- * and the window stays.  The image is given by its number: GIMP does not close an image before a call that has it
+/* This process waits for the window to be closed, and meanwhile writes what that has it write.  GIMP may end it at
+ * that, and the window stays.  The image is given by its number: GIMP does not close an image before a call that has it
  * returns. */
 static GimpValueArray *
 run (GimpProcedure *procedure, GimpRunMode run_mode, GimpImage *image, GimpDrawable **drawables,

@@ -114,7 +114,7 @@ const Babl *celd_live_write_format (GimpImage *image, CeldPicture picture);
 /* The format for the layer of a picture that is still to be made. */
 const Babl *celd_live_write_new_format (GimpImage *image, CeldPicture picture);
 
-/* The image that is written to, where copies of its layers belong, and the procedure that brings pixels into a layer. */
+/* The image that is written to, where copies of its layers belong, and the procedure that brings pixels into one. */
 typedef struct { GimpImage *image, *own; const char *sender; } CeldLiveTarget;
 
 /* Writes a picture into its layer where that differs, without a step of undo; if there is none, the group or the layer
