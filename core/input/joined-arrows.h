@@ -11,7 +11,7 @@
 
 #define CELD_LEAST_LINE 5   /* widths of the paint: a shorter line is part of something else; chosen */
 #define CELD_MOST_APART 3   /* widths for which lines that meet may lie side by side; chosen: 23 degrees */
-#define CELD_MOST_SHARED 4.5 /* the same for lines that fade or taper; chosen: 15 degrees */
+#define CELD_MOST_SHARED 6   /* the same for lines that fade or taper: 10 degrees (measured: with 7 fewer are read) */
 #define CELD_HEAD_REACH 5.5 /* widths from the tip to the end of a barb, at most; chosen */
 #define CELD_LINE_BODY  0.6 /* widths from the middle of a line to the edge of its paint, and a pixel more; chosen */
 #define CELD_NODE_REACH 7   /* widths from a node up to which paint belongs to it; chosen */

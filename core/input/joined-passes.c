@@ -15,10 +15,11 @@
 #define STRAIGHT        0.5 /* radians by which an arrow may turn where it passes others */
 #define LIKELIER        0.2 /* radians by which a way on must be straighter than another one */
 #define OTHER           0.2 /* between values of different arrows, at least */
-#define WEAK_TIP        0.4 /* of a tip, at most, if another line is straight on: a stronger arrow goes on, ... */
+#define WEAK_TIP        0.5 /* of a tip, at most, if another line is straight on: a stronger arrow goes on, ... */
 #define STRONG_TAIL     0.6 /* ... and one that is weaker than this does not begin there */
 #define STRONG_TIP      0.5 /* of two tips that meet, at least, if they do not end there */
 #define LONGEST_UNKNOWN 10  /* widths of a line of which nothing is known and which an arrow may pass */
+#define HUB             4   /* ends at one place, at least, that show by themselves that arrows end there */
 #define TURNED_ASIDE    1.2 /* radians by which a line turns that does not go on from one that others cross */
 
 /* Does an arrow that goes on from one end to another of its node hardly turn there?  *turn: by how much it does. */
@@ -109,19 +110,21 @@ may_go_on (const CeldProfileReading *r, size_t end)
   return false;
 }
 
-/* Does another arrow pass where an end is?  What seems to end there may go on a little beyond. */
+/* Does another arrow pass where an end is?  What seems to end there may go on a little beyond, but hardly if many do. */
 static bool
 is_crossed (const CeldProfileReading *r, size_t end)
 {
   bool crossed = false, on = false;
+  int  ends = 1;
 
   for (size_t i = 0; i < 2 * r->lines->graph.n_lines; i++)
     if (i != end && celd_joined_node (r->lines, i) == celd_joined_node (r->lines, end))
       {
         crossed |= r->next[i] != CELD_NO_END;
+        ends += r->next[i] == CELD_NO_END;
         on |= celd_joined_turn (r->lines, end, i) < TURNED_ASIDE;
       }
-  return crossed && on;
+  return crossed && on && ends < HUB;
 }
 
 bool

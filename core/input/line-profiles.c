@@ -15,7 +15,7 @@
 #include <math.h>
 
 /* All chosen; lengths are widths of the paint, values are parts of the largest one of the connected paint. */
-#define LEAST_ALONE  1.5  /* of a line that is of no other one, too, and 4 pixels */
+#define LEAST_ALONE  1    /* of a line that is of no other one, too, and 4 pixels */
 #define MISFIT       0.05 /* root of the mean square between values and those that only fall, at most */
 #define MOST_RISEN   0.15 /* of values the wrong way, ... */
 #define THIN_RISEN   0.3  /* ... and more of them of a line that is one pixel wide */

@@ -367,6 +367,28 @@ a_star_that_leads_on (void)
   CHECK (right >= 0.8 * 60 * 8);
 }
 
+/* Five that arrive at one place, of which two are about in line with arrows that leave it: so many ends show by
+ * themselves that none goes on there. */
+static void
+a_hub (void)
+{
+  uint32_t state = 47;
+  int      right = 0;
+
+  for (int i = 0; i < 60; i++)
+    {
+      CeldArrowStyle style = i % 2 ? CELD_ARROW_FADE : CELD_ARROW_TAPER;
+      double         w = random_between (&state, 4, 6), turn = random_between (&state, 0, 6.28);
+      Arrow          a[7];
+
+      for (int k = 0; k < 7; k++)
+        a[k] = through ((Point) { SIZE / 2., SIZE / 2. }, turn + 0.9 * k, random_between (&state, 75, 95), k % 3 != 1, w,
+                        style, true);
+      right += read_all (a, 7, style, &state);
+    }
+  CHECK (right >= 0.95 * 60 * 7);
+}
+
 /* Lines that lead to one place at 30 degrees look like a disc there; the dots of all are at their other ends. */
 static void
 dots_round_a_hub (void)
@@ -440,6 +462,7 @@ main (void)
   RUN (at_any_angles);
   RUN (in_one_line);
   RUN (a_star_that_leads_on);
+  RUN (a_hub);
   RUN (dots_round_a_hub);
   RUN (crossed_on_the_way);
   RUN (swelling_strokes);
