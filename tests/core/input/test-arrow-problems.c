@@ -306,7 +306,7 @@ below_another (void)
 
 #define SEVERAL 5
 
-/* Directions at random, each at least 23 degrees from all others. */
+/* Directions at random, each at least 18 degrees from all others. */
 static void
 choose_directions (uint32_t *state, double direction[SEVERAL])
 {
@@ -316,7 +316,7 @@ choose_directions (uint32_t *state, double direction[SEVERAL])
 
       direction[k] = random_between (state, 0, 6.28);
       for (int i = 0; i < k; i++)
-        apart &= cos (direction[k] - direction[i]) < 0.92;
+        apart &= cos (direction[k] - direction[i]) < 0.95;
       k += apart;
     }
 }
