@@ -85,13 +85,15 @@ show_problems (Live *live, GArray *problems)
   celd_live_messages_set (live->messages, problems);
 }
 
-/* A layer that has gone is not made again, or it would come back at once. */
+/* A layer that has gone is not made again, or it would come back at once.  One that changes meanwhile is written again
+ * with the next tick. */
 static void
 write_picture (Live *live, CeldPicture picture, GeglBuffer *buffer)
 {
   CeldLiveTarget target = { live->image, celd_live_follower_image (live->follower), live->sender };
 
-  celd_live_write (&target, picture, buffer, !(live->layers & 1u << picture));
+  if (!celd_live_write (&target, picture, buffer, !(live->layers & 1u << picture)))
+    live->ask = TRUE;
   live->layers |= 1u << picture;
   gimp_displays_flush ();
 }
