@@ -60,8 +60,8 @@ send_row (GimpDrawable *drawable, GeglBuffer *source, const GeglRectangle *row)
   return good;
 }
 
-/* Has GIMP draw what was written; whether all was.  If the layer is resized, GIMP draws all of it. */
-static gboolean
+/* Has GIMP draw what was written.  If the layer is resized, GIMP draws all of it. */
+static void
 send (GimpDrawable *drawable, GeglBuffer *source, const GeglRectangle *changed)
 {
   GeglRectangle tiles = whole_tiles (changed), row = tiles;
@@ -71,10 +71,10 @@ send (GimpDrawable *drawable, GeglBuffer *source, const GeglRectangle *changed)
     {
       row.height = MIN (side, bottom - row.y);
       if (!send_row (drawable, source, &row))
-        return FALSE;
+        return;
       row.y += row.height;
     }
-  return gimp_drawable_update (drawable, changed->x, changed->y, changed->width, changed->height);
+  gimp_drawable_update (drawable, changed->x, changed->y, changed->width, changed->height);
 }
 
 static GimpValueArray *
@@ -83,7 +83,6 @@ run (GimpProcedure *procedure, GimpProcedureConfig *config, gpointer run_data)
   GimpDrawable *layer, *copy;
   GeglBuffer   *source;
   GeglRectangle changed;
-  gboolean      sent;
 
   (void) run_data;
   gimp_plug_in_set_pdb_error_handler (gimp_get_plug_in (), GIMP_PDB_ERROR_HANDLER_PLUGIN);
@@ -91,11 +90,12 @@ run (GimpProcedure *procedure, GimpProcedureConfig *config, gpointer run_data)
   g_object_get (config, "layer", &layer, "copy", &copy, "x", &changed.x, "y", &changed.y, "width", &changed.width,
                 "height", &changed.height, NULL);
   source = copy ? gimp_drawable_get_buffer (copy) : NULL;
-  sent   = layer && source && send (layer, source, &changed);
+  if (layer && source)
+    send (layer, source, &changed);
   g_clear_object (&source);
   g_clear_object (&copy);
   g_clear_object (&layer);
-  return gimp_procedure_new_return_values (procedure, sent ? GIMP_PDB_SUCCESS : GIMP_PDB_CANCEL, NULL);
+  return gimp_procedure_new_return_values (procedure, GIMP_PDB_SUCCESS, NULL);
 }
 
 /* Only Live calls it, and nobody reads its texts but in the Procedure Browser: they are not translated. */

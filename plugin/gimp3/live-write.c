@@ -101,25 +101,22 @@ read_rectangle (GeglBuffer *buffer, const GeglRectangle *rect, const Babl *forma
   return pixels;
 }
 
-/* Has the pixels of a rectangle brought from the copy into the layer; whether they have arrived.  They have not if the
- * layer goes, changes its size or is locked meanwhile.  If GIMP has ended the process of the sender, one has to be
- * started each time. */
-static gboolean
+/* Has the pixels of a rectangle brought from the copy into the layer.  What becomes of that does not matter: if the
+ * layer goes, changes its size or is locked meanwhile, it is looked at again soon.  If GIMP has ended the process of
+ * the sender, one has to be started each time. */
+static void
 send (const char *sender, GimpLayer *layer, GimpLayer *copy, const GeglRectangle *changed)
 {
   GimpPDB        *pdb = gimp_get_pdb ();
   GimpProcedure  *procedure = gimp_pdb_lookup_procedure (
     pdb, gimp_pdb_procedure_exists (pdb, sender) ? sender : CELD_LIVE_SEND);
   GimpValueArray *values;
-  gboolean        sent;
 
   if (!procedure)
-    return FALSE;
+    return;
   values = gimp_procedure_run (procedure, "layer", layer, "copy", copy, "x", changed->x, "y", changed->y,
                                "width", changed->width, "height", changed->height, NULL);
-  sent   = GIMP_VALUES_GET_ENUM (values, 0) == GIMP_PDB_SUCCESS;
   gimp_value_array_unref (values);
-  return sent;
 }
 
 /* Replaces the part of the buffer that lies on the image, which begins at (x,y) of the buffer, by that of the picture.
@@ -153,14 +150,13 @@ write_difference (GeglBuffer *buffer, GeglBuffer *picture, int x, int y)
   return changed;
 }
 
-/* Whether the layer has the picture now.  It may have been moved or cropped; so its copy has its place. */
-static gboolean
+/* The layer may have been moved or cropped; so its copy has its place. */
+static void
 update_layer (const CeldLiveTarget *target, GimpLayer *layer, GeglBuffer *picture)
 {
   GimpLayer    *copy = target->own ? gimp_layer_new_from_drawable (GIMP_DRAWABLE (layer), target->own) : NULL;
   GeglBuffer   *buffer = copy ? gimp_drawable_get_buffer (GIMP_DRAWABLE (copy)) : NULL;
   GeglRectangle changed = { 0 };
-  gboolean      good = buffer != NULL;
   int           x = 0, y = 0;
 
   if (buffer)
@@ -170,23 +166,18 @@ update_layer (const CeldLiveTarget *target, GimpLayer *layer, GeglBuffer *pictur
     }
   g_clear_object (&buffer); /* which sends what was written into it */
   if (changed.width)
-    good = send (target->sender, layer, copy, &changed);
+    send (target->sender, layer, copy, &changed);
   if (copy)
     gimp_item_delete (GIMP_ITEM (copy));
-  return good;
 }
 
-gboolean
+void
 celd_live_write (const CeldLiveTarget *target, CeldPicture picture, GeglBuffer *buffer, gboolean make)
 {
-  const char *argument = celd_pictures[picture].argument;
-  GimpLayer  *layer = celd_results_find_unlocked (target->image, argument);
+  GimpLayer *layer = celd_results_find_unlocked (target->image, celd_pictures[picture].argument);
 
   if (layer)
-    return update_layer (target, layer, buffer) && celd_results_find_unlocked (target->image, argument) == layer;
-  if (celd_results_find (target->image, argument))
-    return FALSE; /* locked since it was looked for */
-  if (make)
+    update_layer (target, layer, buffer);
+  else if (make && !celd_results_find (target->image, celd_pictures[picture].argument))
     add_layer (target->image, picture, buffer);
-  return TRUE;
 }

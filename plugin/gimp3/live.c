@@ -85,15 +85,13 @@ show_problems (Live *live, GArray *problems)
   celd_live_messages_set (live->messages, problems);
 }
 
-/* A layer that has gone is not made again, or it would come back at once.  One that changes meanwhile is written again
- * with the next tick. */
+/* A layer that has gone is not made again, or it would come back at once. */
 static void
 write_picture (Live *live, CeldPicture picture, GeglBuffer *buffer)
 {
   CeldLiveTarget target = { live->image, celd_live_follower_image (live->follower), live->sender };
 
-  if (!celd_live_write (&target, picture, buffer, !(live->layers & 1u << picture)))
-    live->ask = TRUE;
+  celd_live_write (&target, picture, buffer, !(live->layers & 1u << picture));
   live->layers |= 1u << picture;
   gimp_displays_flush ();
 }

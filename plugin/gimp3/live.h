@@ -118,8 +118,7 @@ const Babl *celd_live_write_new_format (GimpImage *image, CeldPicture picture);
 typedef struct { GimpImage *image, *own; const char *sender; } CeldLiveTarget;
 
 /* Writes a picture into its layer where that differs, without a step of undo; if there is none, the group or the layer
- * is made, with one step, if `make` says so.  A layer whose pixels are locked stays as it is.  FALSE: the layer is
- * locked, or was removed, resized or replaced meanwhile, so that it may not have the picture. */
-gboolean celd_live_write (const CeldLiveTarget *target, CeldPicture picture, GeglBuffer *buffer, gboolean make);
+ * is made, with one step, if `make` says so.  A layer whose pixels are locked stays as it is. */
+void celd_live_write (const CeldLiveTarget *target, CeldPicture picture, GeglBuffer *buffer, gboolean make);
 
 #endif
