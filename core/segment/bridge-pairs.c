@@ -65,14 +65,13 @@ width_ratio (const CeldTip *p, const CeldTip *q)
 static bool
 may_join (const CeldTipPairs *s, const CeldTip *p, const CeldTip *q, double *cost)
 {
-  double x = q->x - p->x, y = q->y - p->y, length = hypot (x, y), least;
+  double x = q->x - p->x, y = q->y - p->y, length = hypot (x, y), stroke = fmin (p->stroke, q->stroke), least;
   double turn = (x * p->dx + y * p->dy) / length, other = -(x * q->dx + y * q->dy) / length;
   double side = x * p->dy - y * p->dx, other_side = x * q->dy - y * q->dx;
 
   if (length < 1 || length <= s->from || length > s->most)
     return false;
-  least = length <= NEAR_END * s->stroke ? NEAR_COSINE : length <= FAR_END * s->stroke ? MIDDLE_COSINE
-        : FAR_COSINE;
+  least = length <= NEAR_END * stroke ? NEAR_COSINE : length <= FAR_END * stroke ? MIDDLE_COSINE : FAR_COSINE;
   if (turn < least || other < least || (turn < BOW_COSINE && other < BOW_COSINE && side * other_side < 0))
     return false;
   *cost = length * (2 - 0.5 * (turn + other)) * width_ratio (p, q) * (p->outline == q->outline ? OWN_OUTLINE : 1);

@@ -58,13 +58,13 @@ ramp (double value, double certain, double doubtful)
 
 /* How certain it is that the contour went on from one line end to the other: 0 .. 1. */
 static double
-certainty (const CeldTip *p, const CeldTip *q, int stroke)
+certainty (const CeldTip *p, const CeldTip *q)
 {
   double x = q->x - p->x, y = q->y - p->y, length = hypot (x, y);
   double turn = (x * p->dx + y * p->dy) / length, other = -(x * q->dx + y * q->dy) / length;
 
   return ramp (fmin (turn, other), CERTAIN_COSINE, DOUBTFUL_COSINE) *
-         ramp (length / stroke, CERTAIN_LENGTH, DOUBTFUL_LENGTH);
+         ramp (length / fmin (p->stroke, q->stroke), CERTAIN_LENGTH, DOUBTFUL_LENGTH);
 }
 
 /* Adds a pixel to the last bridge, unless it is the previous one or ink. */
@@ -114,13 +114,13 @@ walk (BridgeBuilder *b, const CeldPlace *place, size_t n, double clear, CeldBrid
 
 /* Adds a bridge along the curve unless something stands in its way; *built says whether it did. */
 static CeldStatus
-build (BridgeBuilder *b, CeldBridge bridge, const CeldPlace *place, size_t n, bool *built)
+build (BridgeBuilder *b, CeldBridge bridge, const CeldPlace *place, size_t n, double stroke, bool *built)
 {
   bool       open = true;
   CeldStatus status;
 
   bridge.first = b->bridges->n_pixels;
-  status       = walk (b, place, n, fmax (b->stroke, 2), &bridge, &open);
+  status       = walk (b, place, n, fmax (stroke, 2), &bridge, &open);
   *built = status == CELD_OK && open && bridge.n;
   if (*built)
     return celd_append (b->bridges->item, b->bridges->n, b->bridges->item_capacity, bridge);
@@ -137,8 +137,9 @@ build_between (BridgeBuilder *b, const CeldTipPair *pair)
   bool        built;
   CeldStatus  status;
 
-  b->faintness = CELD_FAINTEST_INK * (float) (1 - certainty (&b->tip[pair->a], &b->tip[pair->b], b->stroke));
-  status       = build (b, (CeldBridge) { .ahead = false }, place, n, &built);
+  b->faintness = CELD_FAINTEST_INK * (float) (1 - certainty (&b->tip[pair->a], &b->tip[pair->b]));
+  status       = build (b, (CeldBridge) { .ahead = false }, place, n,
+                        fmin (b->tip[pair->a].stroke, b->tip[pair->b].stroke), &built);
   if (built)
     b->taken[pair->a] = b->taken[pair->b] = true;
   return status;
@@ -150,7 +151,7 @@ find_ink_ahead (const BridgeBuilder *b, const CeldTip *tip, CeldPlace *place)
 {
   bool left = false; /* the line's own ink, in which a tip may lie */
 
-  for (double t = 0; t <= MOST_AHEAD * b->stroke; t += 0.5)
+  for (double t = 0; t <= MOST_AHEAD * tip->stroke; t += 0.5)
     {
       int x, y;
 
@@ -195,7 +196,8 @@ build_ahead (BridgeBuilder *b, const CeldTip *tip)
   b->faintness = CELD_FAINTEST_INK;
   if (!find_ink_ahead (b, tip, &place[1]))
     return CELD_OK;
-  return build (b, (CeldBridge) { .ahead = true, .line = is_side (b, tip, place[1]) }, place, 2, &built);
+  return build (b, (CeldBridge) { .ahead = true, .line = is_side (b, tip, place[1]) }, place, 2, tip->stroke,
+                &built);
 }
 
 /* Joins line ends, the cheapest pair first, and then single ends with what lies ahead of them. */

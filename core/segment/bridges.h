@@ -10,8 +10,9 @@
 /* ------------------------------------------------------------------ line-ends.c */
 
 /* The end of a line: the middle of its tip, the unit direction in which it would go on, and the number of its ink
- * outline.  `width`: of the line; 0 if it is not of even width, as the corner of two lines. */
-typedef struct { double x, y, dx, dy; uint32_t outline; double width; } CeldTip;
+ * outline.  `width`: of the line; 0 if it is not of even width, as the corner of two lines.  `stroke`: the width of
+ * strokes among which it was found: that of the drawing, or less for lines that are finer. */
+typedef struct { double x, y, dx, dy; uint32_t outline; double width, stroke; } CeldTip;
 
 /* Finds all line ends, in the order of their first pixels; the caller frees *tip with celd_free.  `stroke`:
  * celd_stroke_width. */

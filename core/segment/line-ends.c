@@ -2,7 +2,8 @@
  *
  * The outlines of all ink are followed, ink on the right, diagonal neighbours connected.  At the end of a line the
  * outline turns back: two places a few stroke widths before and after are close to each other, with ink between.  Such
- * places are then examined like the ends of closures (line-end-fit.c).
+ * places are then examined like the ends of closures (line-end-fit.c).  That is done at several scales, the finest first:
+ * hairlines beside broad strokes have ends of their own.
  *
  * Cost: one pass over the picture, and the length of the outlines; temporarily a byte a pixel.
  *
@@ -20,6 +21,9 @@
 #define SHORTEST_ARM 6    /* pixels of such an arm, at least */
 #define SCALES       9    /* lengths of arms that are tried */
 #define SCALE_FACTOR 1.4  /* each is so many times the one before it */
+#define FINE_LINE    0.28 /* stroke widths: fits for the strokes have fewer than two samples across such a line */
+#define MOST_FINER   16   /* scales for such lines: a drawing may have pens of 50 and of 2 pixels */
+#define ARM_STEPS    8    /* along an arm: places that are tried */
 #define LEAST_OUTLINE 3.5 /* arms: on a shorter outline, as that of a dot, the ends of both arms are near each other
                             * everywhere */
 #define SHARP_TURN   0.6  /* distance of both arms' ends, relative to the arms' lengths: a right angle has 0.71 */
@@ -45,7 +49,9 @@ typedef struct
   CeldCorner      *corner;      /* of the current outline */
   size_t           n;
   uint32_t         outline;     /* its number */
-  CeldLineEnd      end;
+  double           arm;         /* the shortest length of arms for the strokes */
+  CeldLineEnd      end[MOST_FINER + 1]; /* [0]: for the strokes; [k]: for arms that are SCALE_FACTOR^k times shorter */
+  int              n_finer;     /* scales for finer lines */
   CeldTip         *tip;
   uint32_t        *before;      /* of tip k: the one before it in its cell, or NO_TIP */
   size_t           n_tips;
@@ -149,17 +155,18 @@ latest_at (const LineEndSearch *s, CeldTip tip)
   return &s->latest[row * (size_t) s->columns + column];
 }
 
-/* Has this end been found at another scale?  The end on the other side of a narrow gap has the opposite direction. */
+/* Has this end been found at another scale?  The end on the other side of a narrow gap has the opposite direction.  That
+ * of a finer line may be `inexact` pixels away. */
 static bool
-is_known (const LineEndSearch *s, CeldTip end, double width)
+is_known (const LineEndSearch *s, CeldTip end, double width, double inexact)
 {
-  double near = SAME_END * width + 1;
+  double same = SAME_END * width + 1, near = fmax (same, inexact);
   int    right = cell_along (end.x + near, s->columns), bottom = cell_along (end.y + near, s->rows);
 
   for (int row = cell_along (end.y - near, s->rows); row <= bottom; row++)
     for (int column = cell_along (end.x - near, s->columns); column <= right; column++)
       for (uint32_t i = s->latest[(size_t) row * (size_t) s->columns + (size_t) column]; i != NO_TIP; i = s->before[i])
-        if (hypot (s->tip[i].x - end.x, s->tip[i].y - end.y) < near &&
+        if (hypot (s->tip[i].x - end.x, s->tip[i].y - end.y) < (s->tip[i].stroke < s->stroke ? near : same) &&
             s->tip[i].dx * end.dx + s->tip[i].dy * end.dy > 0)
           return true;
   return false;
@@ -243,37 +250,36 @@ find_ink (const LineEndSearch *s, CeldCorner corner, CeldPlace middle, CeldCorne
 }
 
 /* Adds the corner if a line ends there.  A very sharp tip (CERTAIN_TIP) counts even if its line is too short or too
- * curved to fit a direction. */
+ * curved to fit a direction.  At finer scales only lines of even width count: all else is a corner or a ragged edge. */
 static CeldStatus
-try_corner (LineEndSearch *s, size_t i, size_t arm, CeldPlace middle, double sharp)
+try_corner (LineEndSearch *s, size_t i, size_t arm, int finer, CeldPlace middle, double sharp)
 {
-  CeldCorner corner = s->corner[i];
-  double     back = hypot (middle.x - corner.x, middle.y - corner.y), width = 2 * sharp * back; /* estimated width of
-                                                                                                 * the line */
-  CeldCorner inside;
-  CeldTip    end;
+  CeldCorner   corner = s->corner[i];
+  CeldLineEnd *fit = &s->end[finer];
+  double       back = hypot (middle.x - corner.x, middle.y - corner.y), width = line_width (s, i, arm);
+  double       estimated = 2 * sharp * back; /* the width of the line, whether even or not */
+  CeldCorner   inside;
+  CeldTip      end = { .outline = s->outline, .width = width, .stroke = s->stroke / pow (SCALE_FACTOR, finer) };
 
   if (!*mask_at (s, (int) floor (middle.x), (int) floor (middle.y)) || back < 1 ||
-      !find_ink (s, corner, middle, &inside))
+      (finer && (width == 0 || width > FINE_LINE * s->stroke)) || !find_ink (s, corner, middle, &inside))
     return CELD_OK;
-  celd_line_end_fit (s->ink, inside, &s->end);
-  if (s->end.tip)
-    end = (CeldTip) { s->end.at.x, s->end.at.y, s->end.dx, s->end.dy, s->outline, 0 };
-  else
-    end = (CeldTip) { corner.x, corner.y, (corner.x - middle.x) / back, (corner.y - middle.y) / back, s->outline,
-                      0 };
-  if ((!s->end.tip && sharp > CERTAIN_TIP) || is_known (s, end, width))
+  celd_line_end_fit (s->ink, inside, fit);
+  end.x  = fit->tip ? fit->at.x : corner.x;
+  end.y  = fit->tip ? fit->at.y : corner.y;
+  end.dx = fit->tip ? fit->dx : (corner.x - middle.x) / back;
+  end.dy = fit->tip ? fit->dy : (corner.y - middle.y) / back;
+  if ((!fit->tip && sharp > CERTAIN_TIP) || is_known (s, end, estimated, (double) arm / ARM_STEPS))
     return CELD_OK;
-  end.width = line_width (s, i, arm);
   return add_tip (s, end);
 }
 
 /* Examines one corner of each turn of the outline: where both sides of the line are nearest.  That is in the middle of
  * its end even if the end is hollow, with sharper corners at both sides. */
 static CeldStatus
-search_outline (LineEndSearch *s, size_t arm)
+search_outline (LineEndSearch *s, size_t arm, int finer)
 {
-  size_t     step = arm / 8 ? arm / 8 : 1;
+  size_t     step = arm / ARM_STEPS ? arm / ARM_STEPS : 1;
   CeldStatus status = CELD_OK;
 
   if ((double) s->n < LEAST_OUTLINE * (double) arm)
@@ -301,7 +307,7 @@ search_outline (LineEndSearch *s, size_t arm)
             }
         }
       if (is_inked (s, best, arm) && is_inked (s, best, arm / 2))
-        status = try_corner (s, best, arm, middle, least);
+        status = try_corner (s, best, arm, finer, middle, least);
     }
   return status;
 }
@@ -309,16 +315,32 @@ search_outline (LineEndSearch *s, size_t arm)
 static CeldStatus
 search_from (LineEndSearch *s, int x, int y)
 {
-  double     arm = fmax (SHORTEST_ARM, ARM_LENGTH * s->stroke);
+  double     arm = s->arm;
   CeldStatus status = follow (s, x, y);
 
   s->outline++;
+  for (int k = s->n_finer; k > 0 && status == CELD_OK; k--)
+    status = search_outline (s, (size_t) (arm / pow (SCALE_FACTOR, k)), k);
   for (int scale = 0; scale < SCALES && status == CELD_OK; scale++, arm *= SCALE_FACTOR)
-    status = search_outline (s, (size_t) arm);
+    status = search_outline (s, (size_t) arm, 0);
   return status;
 }
 
 /* ------------------------------------------------------------------ the whole */
+
+/* Chooses the scales, and makes room for fitting the ends of lines at each of them. */
+static CeldStatus
+make_scales (LineEndSearch *s)
+{
+  CeldStatus status;
+
+  s->arm = fmax (SHORTEST_ARM, ARM_LENGTH * s->stroke);
+  status = celd_line_end_new (s->stroke, &s->end[0]);
+  for (double arm = s->arm / SCALE_FACTOR; arm >= SHORTEST_ARM && s->n_finer < MOST_FINER && status == CELD_OK;
+       arm /= SCALE_FACTOR)
+    status = celd_line_end_new ((int) (arm / ARM_LENGTH), &s->end[++s->n_finer]);
+  return status;
+}
 
 CeldStatus
 celd_line_ends_find (const CeldPlane *ink, int stroke, const CeldHost *host, CeldTip **tip, size_t *n)
@@ -329,7 +351,7 @@ celd_line_ends_find (const CeldPlane *ink, int stroke, const CeldHost *host, Cel
   if (status == CELD_OK)
     status = make_cells (&s);
   if (status == CELD_OK)
-    status = celd_line_end_new (stroke, &s.end);
+    status = make_scales (&s);
   for (int y = 0; y < s.height && status == CELD_OK; y++)
     {
       const uint8_t *row = mask_at (&s, 0, y), *above = row - s.stride;
@@ -348,7 +370,8 @@ celd_line_ends_find (const CeldPlane *ink, int stroke, const CeldHost *host, Cel
       if (status == CELD_OK && (y & 255) == 255)
         status = celd_progress (host, (double) y / s.height);
     }
-  celd_line_end_clear (&s.end);
+  for (int k = 0; k <= s.n_finer; k++)
+    celd_line_end_clear (&s.end[k]);
   celd_free (s.mask);
   celd_free (s.corner);
   celd_free (s.before);

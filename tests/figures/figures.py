@@ -211,6 +211,19 @@ def gap_beside_bay():
     return f
 
 
+def hairline_gaps():
+    """A part in hairlines with a tab that has three gaps, beside a part with an outline ten times as broad."""
+    f = Figure()
+    f.shape(box(25, 25, 100, 175), 22)
+    f.line([(111, 40), (225, 40), (225, 110), (195, 110), (190, 155), (157, 155), (150, 110), (111, 110)], 2)
+    for x, y in (151, 116), (157, 155), (192, 137):
+        f.ink.ellipse([v * SCALE for v in (x - 2.5, y - 2.5, x + 2.5, y + 2.5)], 255)
+    f.stroke('scribbles', [(45, 60), (80, 60)], A)
+    f.stroke('scribbles', [(125, 75), (210, 75)], B)
+    f.stroke('scribbles', [(5, 7), (235, 7)], C)
+    return f
+
+
 def severed():
     """A stroke that runs over a contour and ends behind a later stroke of another colour, in a narrow part."""
     f = Figure()
@@ -416,7 +429,7 @@ def soft_on_white():
 
 
 FIGURES = [two_arrows, thick, contours, two_characters, frame, limbs, cycle, broken, pinched_little, pinched_much,
-           gap_beside_bay, severed, close_up, nearly_touches_frame, forgotten, cut_off, unpainted_page,
+           gap_beside_bay, hairline_gaps, severed, close_up, nearly_touches_frame, forgotten, cut_off, unpainted_page,
            stopped_near, stopped_farther, stopped_far, open_bay, vein, notch, hairline, stroke_on_contour,
            pencil_on_smooth_paper, pencil_on_rough_paper, cover_on_thick, cover_on_thicker, soft_on_white]
 

@@ -157,6 +157,12 @@ def gap_beside_bay(run):
     yield 'the box ends at its gap', r.colour(105, 97) == figures.A
 
 
+def hairline_gaps(run):
+    r = run()
+    yield 'the tab belongs to its part', r.colour(173, 145) == r.colour(173, 120) == figures.B
+    yield 'its gaps are closed', r.colour(140, 150) == r.colour(205, 140) == figures.C
+
+
 def severed(run):
     r = run()
     yield 'what the stroke ran into keeps its colour', r.colour(190, 60) == r.colour(190, 140) == figures.B
@@ -242,7 +248,7 @@ def cover(run):
 
 
 OUTCOMES = [two_arrows, thick, contours, two_characters, frame, limbs, cycle, broken, pinched, pinched,
-            gap_beside_bay, severed, close_up, nearly_touches_frame, forgotten, cut_off, unpainted_page,
+            gap_beside_bay, hairline_gaps, severed, close_up, nearly_touches_frame, forgotten, cut_off, unpainted_page,
             stopped_short, stopped_short, stopped_short, no_room, no_room, no_room, hairline, stroke_on_contour,
             hairline, hairline, cover, cover, soft_on_white]
 

@@ -71,6 +71,58 @@ a_line_has_two_ends (void)
       }
 }
 
+/* A short hairline in a ring of a pen that is ten times as broad: both ends, as exact as without the ring. */
+static void
+a_hairline_among_broad_strokes_has_two_ends (void)
+{
+  for (int angle = 0; angle < 180; angle += 10)
+    {
+      double    dx = cos (angle * PI / 180), dy = sin (angle * PI / 180);
+      CeldPlace end[2] = { { SIDE / 2 - 22 * dx, SIDE / 2 - 22 * dy }, { SIDE / 2 + 22 * dx, SIDE / 2 + 22 * dy } };
+      CeldTip  *tip = NULL;
+      Scene     s;
+      size_t    n;
+
+      scene_open (SIDE, SIDE, &s);
+      draw_arc (&s, 60, 0, 2 * PI, 24);
+      scene_line (&s, end[0], end[1], 2.4);
+      n = find (&s, &tip);
+      NEAR (n, 2, 0);
+      for (size_t i = 0; i < n; i++)
+        {
+          int k = hypot (tip[i].x - end[0].x, tip[i].y - end[0].y) > 22;
+
+          NEAR (hypot (tip[i].x - end[k].x, tip[i].y - end[k].y), 0, 2.5);
+          CHECK ((k ? 1 : -1) * (tip[i].dx * dx + tip[i].dy * dy) > cos (12 * PI / 180));
+          NEAR (tip[i].width, 2.4, 1.2);
+          CHECK (tip[i].stroke < 0.5 * celd_stroke_width (&s.ink));
+        }
+      celd_free (tip);
+      scene_close (&s);
+    }
+}
+
+/* The edges of a broad pen on rough paper: bristles and notches of a pixel or two. */
+static void
+ragged_edges_of_broad_strokes_have_none (void)
+{
+  uint32_t state = 1;
+  Scene    s;
+
+  scene_open (SIDE, SIDE, &s);
+  draw_arc (&s, 50, 0, 2 * PI, 26);
+  for (int k = 0; k < 200; k++)
+    {
+      double a = check_random (&state, 6284) * 0.001, side = check_random (&state, 2) ? 37 : 63;
+      int    x = (int) (SIDE / 2 + side * cos (a)), y = (int) (SIDE / 2 + side * sin (a));
+
+      CELD_AT (&s.ink, x, y) = (float) check_random (&state, 2);
+    }
+  NEAR (celd_stroke_width (&s.ink), 26, 3);
+  NEAR (count (&s), 0, 0);
+  scene_close (&s);
+}
+
 static void
 closed_lines_have_none (void)
 {
@@ -271,6 +323,8 @@ int
 main (void)
 {
   RUN (a_line_has_two_ends);
+  RUN (a_hairline_among_broad_strokes_has_two_ends);
+  RUN (ragged_edges_of_broad_strokes_have_none);
   RUN (closed_lines_have_none);
   RUN (crossing_lines_have_four);
   RUN (both_ends_at_a_gap_are_found);
