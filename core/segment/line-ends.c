@@ -49,9 +49,9 @@ typedef struct
   CeldCorner      *corner;      /* of the current outline */
   size_t           n;
   uint32_t         outline;     /* its number */
-  double           arm;         /* the shortest length of arms for the strokes */
-  CeldLineEnd      end[MOST_FINER + 1]; /* [0]: for the strokes; [k]: for arms that are SCALE_FACTOR^k times shorter */
-  int              n_finer;     /* scales for finer lines */
+  double           arm[MOST_FINER + 1]; /* [0]: the shortest for the strokes; [1] ..: for finer lines, the finest first */
+  CeldLineEnd      end[MOST_FINER + 1]; /* for fitting lines at that scale */
+  int              n_finer;
   CeldTip         *tip;
   uint32_t        *before;      /* of tip k: the one before it in its cell, or NO_TIP */
   size_t           n_tips;
@@ -259,7 +259,7 @@ try_corner (LineEndSearch *s, size_t i, size_t arm, int finer, CeldPlace middle,
   double       back = hypot (middle.x - corner.x, middle.y - corner.y), width = line_width (s, i, arm);
   double       estimated = 2 * sharp * back; /* the width of the line, whether even or not */
   CeldCorner   inside;
-  CeldTip      end = { .outline = s->outline, .width = width, .stroke = s->stroke / pow (SCALE_FACTOR, finer) };
+  CeldTip      end = { .outline = s->outline, .width = width, .stroke = finer ? s->arm[finer] / ARM_LENGTH : s->stroke };
 
   if (!*mask_at (s, (int) floor (middle.x), (int) floor (middle.y)) || back < 1 ||
       (finer && (width == 0 || width > FINE_LINE * s->stroke)) || !find_ink (s, corner, middle, &inside))
@@ -315,12 +315,12 @@ search_outline (LineEndSearch *s, size_t arm, int finer)
 static CeldStatus
 search_from (LineEndSearch *s, int x, int y)
 {
-  double     arm = s->arm;
+  double     arm = s->arm[0];
   CeldStatus status = follow (s, x, y);
 
   s->outline++;
-  for (int k = s->n_finer; k > 0 && status == CELD_OK; k--)
-    status = search_outline (s, (size_t) (arm / pow (SCALE_FACTOR, k)), k);
+  for (int k = 1; k <= s->n_finer && status == CELD_OK; k++)
+    status = search_outline (s, (size_t) s->arm[k], k);
   for (int scale = 0; scale < SCALES && status == CELD_OK; scale++, arm *= SCALE_FACTOR)
     status = search_outline (s, (size_t) arm, 0);
   return status;
@@ -332,13 +332,16 @@ search_from (LineEndSearch *s, int x, int y)
 static CeldStatus
 make_scales (LineEndSearch *s)
 {
+  double     arm = SHORTEST_ARM, most = ARM_LENGTH * FINE_LINE * s->stroke;
   CeldStatus status;
 
-  s->arm = fmax (SHORTEST_ARM, ARM_LENGTH * s->stroke);
-  status = celd_line_end_new (s->stroke, &s->end[0]);
-  for (double arm = s->arm / SCALE_FACTOR; arm >= SHORTEST_ARM && s->n_finer < MOST_FINER && status == CELD_OK;
-       arm /= SCALE_FACTOR)
-    status = celd_line_end_new ((int) (arm / ARM_LENGTH), &s->end[++s->n_finer]);
+  s->arm[0] = fmax (SHORTEST_ARM, ARM_LENGTH * s->stroke);
+  status    = celd_line_end_new (s->stroke, &s->end[0]);
+  for (; arm <= most && s->n_finer < MOST_FINER && status == CELD_OK; arm *= SCALE_FACTOR)
+    {
+      s->arm[++s->n_finer] = arm;
+      status               = celd_line_end_new ((int) (arm / ARM_LENGTH), &s->end[s->n_finer]);
+    }
   return status;
 }
 
