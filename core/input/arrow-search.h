@@ -23,9 +23,9 @@ typedef struct { size_t place[2]; CeldPoint *at; size_t n; double length, cost, 
 /* Cells of paint. */
 typedef struct { uint32_t *cell; size_t n; } CeldPaintPiece;
 
-/* An arrow that may be chosen: a shaft with a head, or a dot, at one of its ends.  cost: without what it explains;
- * mark_cost: the part of that for what is not painted of the head or dot. */
-typedef struct { size_t shaft; int end; double cost, mark_cost; size_t body, mark; } CeldArrowOption;
+/* An arrow that may be chosen: a shaft with a head, filled or open, or a dot, at one of its ends.  cost: without what it
+ * explains; mark_cost: the part of that for what is not painted of the head or dot. */
+typedef struct { size_t shaft; int end; bool filled; double cost, mark_cost; size_t body, mark; } CeldArrowOption;
 
 /* The chosen options, and what that costs. */
 typedef struct { size_t item[CELD_MOST_CHOSEN], n; double cost; } CeldArrowChoice;
@@ -166,7 +166,8 @@ celd_shaft_passes (const CeldArrowSearch *s, size_t shaft, size_t place)
 
 /* ------------------------------------------------------------------ search-moves.c */
 
-/* Finds a choice that costs less than all that are near it. */
+/* Finds a choice that costs less than all that are near it.  All its heads are filled, or all are open, because whoever
+ * paints arrows that share ends paints them alike; options with other heads stay banned. */
 CeldStatus celd_search_best (CeldArrowSearch *search);
 
 /* Improves what is near an option, without pairs. */

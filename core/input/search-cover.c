@@ -161,12 +161,12 @@ shaft_cost (const CeldShaft *shaft)
 }
 
 static CeldStatus
-add_option (CeldArrowSearch *s, size_t shaft, int end, double mark_cost, size_t body, size_t mark)
+add_option (CeldArrowSearch *s, size_t shaft, int end, bool filled, double mark_cost, size_t body, size_t mark)
 {
   double cost = shaft_cost (&s->shaft[shaft]) + mark_cost;
 
   return celd_append (s->option, s->n_options, s->option_capacity,
-                      ((CeldArrowOption) { shaft, end, cost, mark_cost, body, mark }));
+                      ((CeldArrowOption) { shaft, end, filled, cost, mark_cost, body, mark }));
 }
 
 static void
@@ -196,7 +196,7 @@ add_heads (Gather *g, size_t k)
       gather_mark (g, &head, way);
       status = piece_from (g, &mark);
       if (status == CELD_OK)
-        status = add_option (s, k, end, head.cost, body, mark);
+        status = add_option (s, k, end, i % 2, head.cost, body, mark);
     }
   mark_own (g, body, false);
   return status;
@@ -225,7 +225,7 @@ add_dots (Gather *g, double *cost)
         {
           size_t place = s->shaft[k].place[end];
 
-          status = add_option (s, k, end, cost[place], body, place);
+          status = add_option (s, k, end, false, cost[place], body, place);
         }
     }
   return status;

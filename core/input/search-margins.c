@@ -76,7 +76,7 @@ turned_round (CeldArrowSearch *s, size_t option, double *change)
   *change = INFINITY;
   for (size_t k = 0; k < s->n_options; k++)
     if (s->option[k].shaft == s->option[option].shaft && s->option[k].end != s->option[option].end && !s->chosen[k] &&
-        celd_search_change (s, k) < *change)
+        s->option[k].filled == s->option[option].filled && celd_search_change (s, k) < *change)
       {
         *change = celd_search_change (s, k);
         best    = k;

@@ -281,8 +281,9 @@ begin_divided (CeldArrowSearch *s)
   return apart && far ? CELD_OK : CELD_NO_MEMORY;
 }
 
-CeldStatus
-celd_search_best (CeldArrowSearch *s)
+/* The best choice of options that are not banned. */
+static CeldStatus
+find_best (CeldArrowSearch *s)
 {
   CeldArrowChoice nothing = s->choice, first;
   CeldStatus      status;
@@ -298,5 +299,39 @@ celd_search_best (CeldArrowSearch *s)
   improve (s);
   if (s->choice.cost > first.cost)
     celd_search_restore (s, &first);
+  return CELD_OK;
+}
+
+/* Bans options with filled or with open heads. */
+static void
+ban_heads (CeldArrowSearch *s, bool filled, bool on)
+{
+  for (size_t k = 0; k < s->n_options; k++)
+    if (s->option[k].filled == filled)
+      s->banned[k] = (uint16_t) (s->banned[k] + (on ? 1 : -1));
+}
+
+CeldStatus
+celd_search_best (CeldArrowSearch *s)
+{
+  CeldArrowChoice nothing = s->choice, open;
+  CeldStatus      status;
+
+  if (s->dot)
+    return find_best (s);
+  ban_heads (s, true, true);
+  status = find_best (s);
+  if (status != CELD_OK)
+    return status;
+  open = s->choice;
+  celd_search_restore (s, &nothing);
+  ban_heads (s, true, false);
+  ban_heads (s, false, true);
+  status = find_best (s);
+  if (status != CELD_OK || s->choice.cost <= open.cost)
+    return status;
+  celd_search_restore (s, &open);
+  ban_heads (s, false, false);
+  ban_heads (s, true, true);
   return CELD_OK;
 }
