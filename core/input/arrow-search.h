@@ -132,10 +132,12 @@ double celd_distance_to_shaft (const CeldShaft *shaft, CeldPoint p);
 typedef enum { CELD_OUTLINE_OPEN, CELD_OUTLINE_FILLED, CELD_OUTLINE_DOT } CeldOutlineKind;
 typedef struct { CeldOutlineKind kind; CeldPoint tip, barb[2]; double radius, cost; } CeldHeadOutline;
 
-/* The head that fits the paint best near a place where a line in direction `way` ends.  `shaft` (of each cell: is it of
- * that line?): only paint beside that shows a head; NULL: it is not known. */
-CeldHeadOutline celd_search_head_fit (const CeldArrowSearch *search, CeldOutlineKind kind, CeldPoint place,
-                                      CeldPoint way, const uint8_t *shaft);
+#define CELD_MOST_HEADS 4 /* open heads of a narrow or a wide barb on either side */
+
+/* The heads that fit the paint near a place where a line in direction `way` ends, the best one first: how many there
+ * are.  `shaft` (of each cell: is it of that line?): only paint beside that shows a head; NULL: it is not known. */
+int             celd_search_heads_fit (const CeldArrowSearch *search, CeldOutlineKind kind, CeldPoint place,
+                                       CeldPoint way, const uint8_t *shaft, CeldHeadOutline *heads);
 CeldHeadOutline celd_search_dot_fit (const CeldArrowSearch *search, CeldPoint place);
 
 /* ------------------------------------------------------------------ search-cover.c */

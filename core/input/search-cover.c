@@ -176,28 +176,39 @@ mark_own (Gather *g, size_t body, bool own)
     g->own[g->s->piece[body].cell[i]] = own;
 }
 
+/* The options of a shaft with heads of a kind at one of its ends. */
+static CeldStatus
+add_heads_at (Gather *g, size_t k, int end, CeldOutlineKind kind, size_t body)
+{
+  CeldArrowSearch *s = g->s;
+  const CeldShaft *shaft = &s->shaft[k];
+  bool             filled = kind == CELD_OUTLINE_FILLED;
+  CeldPoint        way = celd_shaft_way (shaft, end, (filled ? FILLED_BACK : OPEN_BACK) * s->width);
+  CeldHeadOutline  head[CELD_MOST_HEADS];
+  int              n = celd_search_heads_fit (s, kind, shaft->at[end ? shaft->n - 1 : 0], way, g->own, head);
+  size_t           mark = 0;
+  CeldStatus       status = CELD_OK;
+
+  for (int i = 0; i < n && status == CELD_OK; i++)
+    {
+      gather_mark (g, &head[i], way);
+      status = piece_from (g, &mark);
+      if (status == CELD_OK)
+        status = add_option (s, k, end, filled, head[i].cost, body, mark);
+    }
+  return status;
+}
+
 /* The options of a shaft with heads of both kinds at either end. */
 static CeldStatus
 add_heads (Gather *g, size_t k)
 {
-  CeldArrowSearch *s = g->s;
-  const CeldShaft *shaft = &s->shaft[k];
-  size_t           body = 0, mark = 0;
-  CeldStatus       status = shaft_piece (g, shaft, &body);
+  size_t     body = 0;
+  CeldStatus status = shaft_piece (g, &g->s->shaft[k], &body);
 
   mark_own (g, body, status == CELD_OK);
   for (int i = 0; i < 4 && status == CELD_OK; i++)
-    {
-      int             end = i / 2;
-      CeldPoint       way = celd_shaft_way (shaft, end, (i % 2 ? FILLED_BACK : OPEN_BACK) * s->width);
-      CeldHeadOutline head = celd_search_head_fit (s, i % 2 ? CELD_OUTLINE_FILLED : CELD_OUTLINE_OPEN,
-                                                   shaft->at[end ? shaft->n - 1 : 0], way, g->own);
-
-      gather_mark (g, &head, way);
-      status = piece_from (g, &mark);
-      if (status == CELD_OK)
-        status = add_option (s, k, end, i % 2, head.cost, body, mark);
-    }
+    status = add_heads_at (g, k, i / 2, i % 2 ? CELD_OUTLINE_FILLED : CELD_OUTLINE_OPEN, body);
   mark_own (g, body, false);
   return status;
 }

@@ -1,8 +1,13 @@
 /* Heads and dots that fit the paint near the end of a line.
  *
  * A head is two barbs (open), or the triangle of their ends and the tip (filled).  Each barb may have any direction
- * and length that heads have; what is not painted costs, and what is painted beside the shaft is worth something.  Its
- * tip may be a little off the place where the line should end.
+ * and length that heads have; what is not painted costs, and what is painted beside the shaft is worth something.  A
+ * barb that hardly leaves the paint of its shaft is not seen, and costs as much as if it were not painted.  The tip may
+ * be a little off the place where the line should end.
+ *
+ * Where lines meet, barbs fit shafts and barbs of others better than their own paint.  So there are several open heads
+ * of an end, and which of them it is shows in the choice of all arrows: one that takes the paint of others leaves its
+ * own unexplained.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -25,10 +30,16 @@
 #define OPEN_UNUSUAL  0.02 /* ... and what each step costs */
 #define OPEN_STEP     0.25 /* along a barb, ... */
 #define OPEN_STEPS    19   /* ... of which there are at most so many */
-#define OPEN_LENGTH   3    /* of a barb, at least */
+#define OPEN_LENGTH   3    /* of a barb, at least, ... */
+#define OPEN_BESIDE   2    /* ... and of what of it is beside the shaft */
+#define OPEN_UNLIKE   0.06 /* cost of barbs that turn by different steps, by the square of that, ... */
+#define OPEN_LONGER   0.15 /* ... and of those of different lengths, by the square of what is more than ... */
+#define OPEN_ALIKE    0.5  /* ... this; ... */
+#define OPEN_MORE     1    /* ... what is more than this is no part of the longer one */
+#define OPEN_TURNED   0.15 /* cost of a head that is turned */
+#define OPEN_WORSE    2.5  /* costs by which other heads of an end may be worse than the best one */
 #define OPEN_ROOM     0.22 /* from a barb to the edge of its paint, and a third of a pixel less */
 #define OPEN_WORTH    0.5  /* of a barb beside the shaft, by its length */
-#define OPEN_MOST     2.5  /* that a barb is worth */
 #define FILLED_LEAST  0.42 /* as for open heads */
 #define FILLED_TURN   0.09
 #define FILLED_TURNS  4
@@ -88,26 +99,71 @@ painted_length (const CeldArrowSearch *s, CeldPoint tip, CeldPoint way, const ui
   return run;
 }
 
-/* The best barb of an open head on one side: its end; *bare: what is not painted.  Returns what it costs. */
-static double
-fit_open (const CeldArrowSearch *s, CeldPoint tip, const CeldPoint *way, const uint8_t *shaft, CeldPoint *end,
-          double *bare)
+/* The directions of a head that are tried: of its axis, backwards, and of the barbs on either side. */
+typedef struct { CeldPoint back, way[2][OPEN_TURNS]; } HeadWays;
+
+/* A barb that may be: what it costs, how far it is painted, and what of it is missing, in widths. */
+typedef struct { double cost, run, missing; } BarbFit;
+
+static BarbFit
+fit_barb (const CeldArrowSearch *s, CeldPoint tip, CeldPoint way, int k, const uint8_t *shaft)
 {
-  double best = INFINITY;
+  double beside, run = painted_length (s, tip, way, shaft, &beside);
+  double missing = fmax (0, fmax (OPEN_LENGTH - run, shaft ? OPEN_BESIDE - beside : 0));
 
-  for (int k = 0; k < OPEN_TURNS; k++)
-    {
-      double beside, run = painted_length (s, tip, way[k], shaft, &beside), missing = fmax (0, OPEN_LENGTH - run);
-      double cost = BARE * missing - OPEN_WORTH * beside + OPEN_UNUSUAL * fabs (k - OPEN_USUAL);
+  return (BarbFit) {
+    .cost    = BARE * missing - OPEN_WORTH * beside + OPEN_UNUSUAL * fabs (k - OPEN_USUAL),
+    .run     = run,
+    .missing = missing,
+  };
+}
 
-      if (cost < best)
-        {
-          best  = cost;
-          *bare = missing;
-          *end  = celd_moved (tip, way[k], run * s->width);
-        }
-    }
-  return best;
+/* Which of CELD_MOST_HEADS open heads those are whose barbs turn by so many steps: each is narrow or wide on either
+ * side. */
+static int
+number_of (int one, int other)
+{
+  return (one >= OPEN_TURNS / 2) + 2 * (other >= OPEN_TURNS / 2);
+}
+
+/* What two barbs cost that are not alike, as those of a head are. */
+static double
+unlike_cost (const BarbFit *a, const BarbFit *b, int turn)
+{
+  double longer = fmax (0, fabs (a->run - b->run) - OPEN_ALIKE);
+
+  return OPEN_UNLIKE * turn * turn + OPEN_LONGER * longer * longer;
+}
+
+/* Replaces the open heads that cost more than some with a certain tip.  cost: of this tip while heads are compared;
+ * off: what stays of that later. */
+static void
+fit_open (const CeldArrowSearch *s, CeldPoint tip, const HeadWays *ways, const uint8_t *shaft, double cost, double off,
+          CeldHeadOutline *heads, double *least)
+{
+  BarbFit fit[2][OPEN_TURNS];
+
+  for (int side = 0; side < 2; side++)
+    for (int k = 0; k < OPEN_TURNS; k++)
+      fit[side][k] = fit_barb (s, tip, ways->way[side][k], k, shaft);
+  for (int i = 0; i < OPEN_TURNS; i++)
+    for (int k = 0; k < OPEN_TURNS; k++)
+      {
+        const BarbFit *a = &fit[0][i], *b = &fit[1][k];
+        int            n = number_of (i, k);
+        double         unlike = unlike_cost (a, b, i - k), all = cost + a->cost + b->cost + unlike, w = s->width;
+
+        if (all >= least[n])
+          continue;
+        least[n] = all;
+        heads[n] = (CeldHeadOutline) {
+          .kind = CELD_OUTLINE_OPEN,
+          .tip  = tip,
+          .barb = { celd_moved (tip, ways->way[0][i], fmin (a->run, b->run + OPEN_MORE) * w),
+                    celd_moved (tip, ways->way[1][k], fmin (b->run, a->run + OPEN_MORE) * w) },
+          .cost = BARE * (a->missing + b->missing) + unlike + off,
+        };
+      }
 }
 
 /* Counts samples of a triangle: those that are not painted (*bare), and those that are beside the shaft.  Returns false
@@ -173,9 +229,6 @@ fit_filled (const CeldArrowSearch *s, CeldPoint tip, CeldPoint ahead, CeldPoint 
   return best;
 }
 
-/* The directions of a head that are tried: of its axis, backwards, and of the barbs on either side. */
-typedef struct { CeldPoint back, way[2][OPEN_TURNS]; } HeadWays;
-
 static HeadWays
 ways_of (bool filled, double angle)
 {
@@ -191,30 +244,53 @@ ways_of (bool filled, double angle)
   return ways;
 }
 
-/* The best head with a certain tip: the ends of its barbs, and what of them is not painted.  Returns what it costs, or
- * some more if that is at least `most`. */
-static double
-fit_both (const CeldArrowSearch *s, bool filled, CeldPoint tip, CeldPoint ahead, const HeadWays *ways,
-          const uint8_t *shaft, double cost, double most, CeldPoint *end, double *bare)
+/* Replaces a filled head that costs more than the best one with a certain tip, in the same way. */
+static void
+fit_both (const CeldArrowSearch *s, CeldPoint tip, CeldPoint ahead, const HeadWays *ways, const uint8_t *shaft,
+          double cost, double off, CeldHeadOutline *head, double *least)
 {
-  double worth = filled ? FILLED_MOST : OPEN_MOST;
+  CeldPoint end[2];
+  double    bare[2];
 
-  for (int k = 0; k < 2 && cost - (2 - k) * worth < most; k++)
-    cost += filled ? fit_filled (s, tip, ahead, ways->back, ways->way[k], shaft, most - cost + (1 - k) * worth, &end[k],
-                                 &bare[k])
-                   : fit_open (s, tip, ways->way[k], shaft, &end[k], &bare[k]);
-  return cost;
+  for (int k = 0; k < 2 && cost - (2 - k) * FILLED_MOST < *least; k++)
+    cost += fit_filled (s, tip, ahead, ways->back, ways->way[k], shaft, *least - cost + (1 - k) * FILLED_MOST, &end[k],
+                        &bare[k]);
+  if (cost >= *least)
+    return;
+  *least = cost;
+  *head  = (CeldHeadOutline) { CELD_OUTLINE_FILLED, tip, { end[0], end[1] }, 0, BARE * (bare[0] + bare[1] + off) };
 }
 
-CeldHeadOutline
-celd_search_head_fit (const CeldArrowSearch *s, CeldOutlineKind kind, CeldPoint place, CeldPoint way,
-                      const uint8_t *shaft)
+/* Keeps the heads that are not much worse than the best one, that one first.  Returns their number. */
+static int
+keep_good (CeldHeadOutline *heads, double *least)
 {
-  bool            filled = kind == CELD_OUTLINE_FILLED;
-  double          w = s->width, angle = atan2 (way.y, way.x), best = INFINITY;
-  CeldPoint       across = { -way.y, way.x };
-  CeldHeadOutline head = { .kind = kind };
+  CeldHeadOutline first = heads[0];
+  double          most;
+  int             best = 0, n = 1;
 
+  for (int k = 1; k < CELD_MOST_HEADS; k++)
+    best = least[k] < least[best] ? k : best;
+  most        = least[best] + OPEN_WORSE;
+  heads[0]    = heads[best];
+  heads[best] = first;
+  least[best] = least[0];
+  for (int k = 1; k < CELD_MOST_HEADS; k++)
+    if (least[k] < most)
+      heads[n++] = heads[k];
+  return n;
+}
+
+int
+celd_search_heads_fit (const CeldArrowSearch *s, CeldOutlineKind kind, CeldPoint place, CeldPoint way,
+                       const uint8_t *shaft, CeldHeadOutline *heads)
+{
+  bool      filled = kind == CELD_OUTLINE_FILLED;
+  double    w = s->width, angle = atan2 (way.y, way.x), least[CELD_MOST_HEADS];
+  CeldPoint across = { -way.y, way.x };
+
+  for (int k = 0; k < CELD_MOST_HEADS; k++)
+    least[k] = INFINITY;
   for (int turn = -1; turn <= 1; turn++)
     {
       HeadWays ways = ways_of (filled, angle + turn * TIP_TURN);
@@ -222,23 +298,18 @@ celd_search_head_fit (const CeldArrowSearch *s, CeldOutlineKind kind, CeldPoint 
       for (int on = -TIP_BEHIND; on <= TIP_AHEAD; on++)
         for (int off = -1; off <= 1; off++)
           {
-            CeldPoint on_axis = celd_moved (place, way, on * FIT_TIP_STEP * w), end[2] = { 0 };
+            CeldPoint on_axis = celd_moved (place, way, on * FIT_TIP_STEP * w);
             CeldPoint tip = celd_moved (on_axis, across, off * FIT_TIP_STEP * w);
-            CeldPoint ahead = celd_moved (tip, way, FILLED_AHEAD * w);
-            double    bare[2] = { 0 }, cost = (filled ? FILLED_OFF : OPEN_OFF) * (abs (turn) + abs (on) + abs (off));
+            double    cost = (filled ? FILLED_OFF : OPEN_OFF) * (abs (turn) + abs (on) + abs (off));
+            double    apart = FIT_OFF * celd_points_apart (tip, place) / w;
 
-            cost = fit_both (s, filled, tip, ahead, &ways, shaft, cost, best, end, bare);
-            if (cost < best)
-              {
-                double apart = FIT_OFF * celd_points_apart (tip, place) / w;
-
-                best = cost;
-                head = (CeldHeadOutline) { kind, tip, { end[0], end[1] }, 0, BARE * (bare[0] + bare[1]) };
-                head.cost += filled ? BARE * apart : apart;
-              }
+            if (filled)
+              fit_both (s, tip, celd_moved (tip, way, FILLED_AHEAD * w), &ways, shaft, cost, apart, heads, least);
+            else
+              fit_open (s, tip, &ways, shaft, cost, apart + OPEN_TURNED * abs (turn), heads, least);
           }
     }
-  return head;
+  return keep_good (heads, least);
 }
 
 /* The part of a disc that is not painted. */

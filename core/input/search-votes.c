@@ -69,10 +69,11 @@ find_tips (VoteCount *v, const CeldStrokeArm *arm)
         break;
       for (int kind = CELD_OUTLINE_OPEN; kind <= CELD_OUTLINE_FILLED && status == CELD_OK; kind++)
         {
-          CeldHeadOutline head = celd_search_head_fit (v->s, (CeldOutlineKind) kind, p, arm->way, NULL);
+          CeldHeadOutline head[CELD_MOST_HEADS];
 
-          if (head.cost < HEAD_COST)
-            status = add_meeting (v, head.tip, HEAD_VOTES * (1 - head.cost));
+          celd_search_heads_fit (v->s, (CeldOutlineKind) kind, p, arm->way, NULL, head);
+          if (head[0].cost < HEAD_COST)
+            status = add_meeting (v, head[0].tip, HEAD_VOTES * (1 - head[0].cost));
         }
     }
   return status;
