@@ -23,8 +23,8 @@ typedef struct { size_t place[2]; CeldPoint *at; size_t n; double length, cost, 
 /* Cells of paint. */
 typedef struct { uint32_t *cell; size_t n; } CeldPaintPiece;
 
-/* An arrow that may be chosen: a shaft with a head, filled or open, or a dot, at one of its ends.  cost: without what it
- * explains; mark_cost: the part of that for what is not painted of the head or dot. */
+/* An arrow that may be chosen: a shaft with a head, filled or open, or a dot, at one of its ends.  cost: without what
+ * it explains; mark_cost: the part of that for what is not painted of the head or dot. */
 typedef struct { size_t shaft; int end; bool filled; double cost, mark_cost; size_t body, mark; } CeldArrowOption;
 
 /* The chosen options, and what that costs. */
@@ -191,12 +191,17 @@ void celd_search_margins_find (CeldArrowSearch *search, double *margin);
 /* ------------------------------------------------------------------ search-rest.c */
 
 /* Of each chosen arrow, in square widths: the area of its head or dot that no line explains (seen), and of that what no
- * other head does (own); arrows share dots.  rest: the unexplained paint that is nearer to it than to others. */
-typedef struct { double own[CELD_MOST_CHOSEN], seen[CELD_MOST_CHOSEN], rest[CELD_MOST_CHOSEN]; } CeldChoicePaint;
+ * other head does (own), or none at another place (of_place); arrows share dots.  rest: the unexplained paint that is
+ * nearer to it than to others. */
+typedef struct
+{
+  double seen[CELD_MOST_CHOSEN], own[CELD_MOST_CHOSEN], of_place[CELD_MOST_CHOSEN], rest[CELD_MOST_CHOSEN];
+} CeldChoicePaint;
 
 CeldStatus celd_choice_paint_measure (CeldArrowSearch *search, CeldChoicePaint *paint);
 
-/* The area of unexplained paint round a shaft, in square widths. */
+/* The area of unexplained paint near a place, and round a shaft, in square widths. */
+double celd_rest_near (CeldArrowSearch *search, size_t place);
 double celd_rest_round (CeldArrowSearch *search, const CeldShaft *shaft);
 
 /* ------------------------------------------------------------------ search-clear.c */

@@ -22,12 +22,13 @@
 #define AS_GOOD_MARGIN     0.02 /* of choices that are as good */
 #define ARROW_MOST_REST    0.35 /* area of unexplained paint that is next to an arrow with a head, ... */
 #define CERTAIN_MOST_REST  1    /* ... to one that is certain, ... */
-#define CERTAIN_MARGIN     3    /* ... for it has so much of a margin, ... */
+#define CERTAIN_MARGIN     6    /* ... for it has so much of a margin, ... */
 #define DOT_MOST_REST      0.25 /* ... or to one with a dot, which is no wider; ... */
-#define ROUND_MOST_REST    0.7  /* ... and round one with a head, even if it is next to others, ... */
-#define DOT_ROUND_REST     0.4  /* ... or one with a dot */
+#define TAIL_MOST_REST     0.5  /* ... and where one with a head begins, even if it is next to others, ... */
+#define DOT_ROUND_REST     0.4  /* ... or all round one with a dot */
 #define ARROW_LEAST_OWN    0.8  /* area of the paint of a head that no line explains */
-#define ARROW_STRAIGHT     0.6  /* radians by which arrows turn that may go on */
+#define ARROW_STRAIGHT     0.75 /* radians by which arrows with heads turn that may go on, measured; ... */
+#define DOT_STRAIGHT       0.6  /* ... and those with dots */
 #define ARROW_PASS_TURN    0.45 /* the same where one of several arrows may pass */
 #define WAY_FROM           5    /* from the end of a line to where its direction is measured */
 #define ONE_PLACE          2    /* between ends of arrows that are at one place, at most, ... */
@@ -92,18 +93,20 @@ has_partner (const Clearness *r, size_t place, size_t i, CeldPoint way)
           {
             CeldPoint other = celd_shaft_way (shaft, end, WAY_FROM * s->width);
 
-            if (way.x * other.x + way.y * other.y < -cos (ARROW_STRAIGHT))
+            if (way.x * other.x + way.y * other.y < -cos (s->dot ? DOT_STRAIGHT : ARROW_STRAIGHT))
               return true;
           }
     }
   return false;
 }
 
-/* Does something show that arrows end at a place: a head or dot, or one that cannot go on straight? */
+/* Does something show that arrows end at a place: a head or dot, or that none of them can go on straight there?  Of
+ * arrows with dots, one that cannot is enough. */
 static bool
 is_shown (const Clearness *r, size_t place)
 {
   const CeldArrowSearch *s = r->s;
+  bool                   straight = false, bent = false;
 
   for (size_t k = 0; k < s->choice.n; k++)
     {
@@ -111,12 +114,17 @@ is_shown (const Clearness *r, size_t place)
       const CeldShaft       *shaft = &s->shaft[o->shaft];
 
       for (int end = 0; end < 2; end++)
-        if (shaft->place[end] == place &&
-            ((o->end == end && r->paint.own[k] >= ARROW_LEAST_OWN) ||
-             !has_partner (r, place, k, celd_shaft_way (shaft, end, WAY_FROM * s->width))))
-          return true;
+        if (shaft->place[end] == place)
+          {
+            if (o->end == end && r->paint.of_place[k] >= ARROW_LEAST_OWN)
+              return true;
+            if (has_partner (r, place, k, celd_shaft_way (shaft, end, WAY_FROM * s->width)))
+              straight = true;
+            else
+              bent = true;
+          }
     }
-  return false;
+  return s->dot ? bent : !straight;
 }
 
 /* Does no arrow end near a place, but not at it? */
@@ -302,11 +310,9 @@ is_any_seen (const Clearness *r, size_t i)
 static double
 margin_needed (const Clearness *r, size_t i)
 {
-  const CeldShaft *shaft = celd_chosen_shaft (r->s, i);
-  bool             passes = may_pass (r, i);
-  int              doubts = (r->paint.seen[i] < ARROW_LEAST_OWN) + passes + is_on_another (r, i);
+  int doubts = (r->paint.seen[i] < ARROW_LEAST_OWN) + may_pass (r, i) + is_on_another (r, i);
 
-  if ((passes && !r->s->dot) || !is_any_seen (r, i) || !is_shown (r, shaft->place[0]) || !is_shown (r, shaft->place[1]))
+  if (!is_any_seen (r, i))
     return INFINITY;
   if (doubts)
     return CLEAR_MARGIN + doubts * DOUBT_MARGIN;
@@ -336,6 +342,8 @@ why_unclear (const Clearness *r, size_t i)
 
   if (is_double (r, i))
     return CELD_REASON_ALIKE;
+  if (!(s->dot && r->agreed[i]) && (!is_shown (r, shaft->place[0]) || !is_shown (r, shaft->place[1])))
+    return CELD_REASON_MEETING;
   if (r->agreed[i])
     return is_explained (r, i) && !is_on_another (r, i) ? CELD_REASON_NONE : CELD_REASON_MEETING;
   if (shaft->length < SHORTEST * s->width)
@@ -343,7 +351,7 @@ why_unclear (const Clearness *r, size_t i)
   if (o->mark_cost > (s->dot ? MOST_OF_DOT : MOST_OF_HEAD))
     return CELD_REASON_ALIKE;
   if (o->cost > MOST_OF_ARROW || s->passed[o->shaft] || passes_end (r, i) || !is_explained (r, i) ||
-      celd_rest_round (r->s, shaft) > (s->dot ? DOT_ROUND_REST : ROUND_MOST_REST))
+      (s->dot ? celd_rest_round (r->s, shaft) > DOT_ROUND_REST : celd_rest_near (r->s, tail) > TAIL_MOST_REST))
     return CELD_REASON_MEETING;
   if (r->margin[i] < margin_needed (r, i))
     return r->paint.seen[i] < ARROW_LEAST_OWN ? CELD_REASON_ALIKE : CELD_REASON_MEETING;

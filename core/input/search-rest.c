@@ -14,35 +14,54 @@
 #define REST_REACH 1.5  /* from a line to unexplained paint round it, ... */
 #define REST_ENDS  3.5  /* ... and from its ends */
 
-/* Finds what of heads and dots is seen, and their own; arrows share dots. */
+/* Adds `more` to the count of each cell that heads or dots have which are where that of arrow i is. */
+static void
+count_marks (const CeldArrowSearch *s, size_t i, uint16_t *count, int more)
+{
+  const CeldArrowOption *o = &s->option[s->choice.item[i]];
+
+  for (size_t k = 0; k < s->choice.n; k++)
+    {
+      const CeldArrowOption *q = &s->option[s->choice.item[k]];
+
+      if (s->shaft[q->shaft].place[q->end] == s->shaft[o->shaft].place[o->end])
+        for (size_t c = 0; c < s->piece[q->mark].n; c++)
+          count[s->piece[q->mark].cell[c]] = (uint16_t) (count[s->piece[q->mark].cell[c]] + more);
+    }
+}
+
+/* Finds what of heads and dots is seen, their own, and what is of them and others at the same place; arrows share
+ * dots. */
 static CeldStatus
 find_own (CeldArrowSearch *s, CeldChoicePaint *paint)
 {
-  uint16_t        *marks = celd_alloc0 ((size_t) s->columns * (size_t) s->rows, sizeof *marks);
-  double           area = s->step * s->step / (s->width * s->width);
+  size_t    n = (size_t) s->columns * (size_t) s->rows;
+  uint16_t *all = celd_alloc0 (n, sizeof *all), *here = celd_alloc0 (n, sizeof *here);
+  double    area = s->step * s->step / (s->width * s->width);
 
-  if (!marks)
-    return CELD_NO_MEMORY;
-  for (int pass = 0; pass < 2; pass++)
-    for (size_t i = 0; i < s->choice.n; i++)
-      {
-        const CeldPaintPiece *mark = &s->piece[s->option[s->choice.item[i]].mark];
+  for (size_t i = 0; all && here && i < s->choice.n; i++)
+    for (size_t k = 0; k < s->piece[s->option[s->choice.item[i]].mark].n; k++)
+      all[s->piece[s->option[s->choice.item[i]].mark].cell[k]]++;
+  for (size_t i = 0; all && here && i < s->choice.n; i++)
+    {
+      const CeldPaintPiece *mark = &s->piece[s->option[s->choice.item[i]].mark];
 
-        for (size_t k = 0; k < mark->n; k++)
-          {
-            size_t c = mark->cell[k];
+      count_marks (s, i, here, 1);
+      for (size_t k = 0; k < mark->n; k++)
+        {
+          size_t c = mark->cell[k];
 
-            if (!pass)
-              marks[c]++;
-            else if (s->covers[c] == marks[c])
-              {
-                paint->seen[i] += area;
-                paint->own[i] += s->dot || marks[c] == 1 ? area : 0;
-              }
-          }
-      }
-  celd_free (marks);
-  return CELD_OK;
+          if (s->covers[c] != all[c])
+            continue;
+          paint->seen[i] += area;
+          paint->own[i] += s->dot || all[c] == 1 ? area : 0;
+          paint->of_place[i] += all[c] == here[c] ? area : 0;
+        }
+      count_marks (s, i, here, -1);
+    }
+  celd_free (all);
+  celd_free (here);
+  return all && here ? CELD_OK : CELD_NO_MEMORY;
 }
 
 /* Finds the unexplained paint that is nearer to each arrow than to others. */
@@ -96,6 +115,13 @@ rest_at (CeldArrowSearch *s, CeldPoint p, double reach)
           rest += s->step * s->step / (s->width * s->width);
       }
   return rest;
+}
+
+double
+celd_rest_near (CeldArrowSearch *s, size_t place)
+{
+  s->tick++;
+  return rest_at (s, s->place[place], REST_ENDS * s->width);
 }
 
 double
