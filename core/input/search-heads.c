@@ -46,6 +46,7 @@
 #define FILLED_LENGTH 2.9  /* of the sides, at least, ... */
 #define FILLED_LONGER 0.6  /* ... and in such steps, ... */
 #define FILLED_STEPS  4    /* ... of which there are so many */
+#define FILLED_BESIDE 0.8  /* area of a half that is beside the shaft, at least */
 #define FILLED_AHEAD  0.4  /* from where a line ends to the tip of the triangle */
 #define FILLED_BARE   2    /* cost of what is not painted while heads are compared */
 #define FILLED_MOST   6.5  /* that half a head is worth, for its area */
@@ -210,19 +211,20 @@ fit_filled (const CeldArrowSearch *s, CeldPoint tip, CeldPoint ahead, CeldPoint 
         CeldPoint corner = celd_moved (tip, way[k], length);
         CeldPoint foot = celd_moved (tip, back, length * cos (FILLED_LEAST + FILLED_TURN * k));
         double    area = fabs ((corner.x - ahead.x) * (foot.y - ahead.y) - (corner.y - ahead.y) * (foot.x - ahead.x));
-        double    cost, missing;
+        double    cost, missing, beside;
         int       n_bare, n_beside;
 
         area /= 2 * w * w;
         if (!sample_triangle (s, ahead, corner, foot, shaft,
                               ALL_SAMPLES * (1 + fmin (best, most) / area) + 1e-6, &n_bare, &n_beside))
           continue;
-        missing = (double) n_bare / ALL_SAMPLES;
-        cost    = area * (FILLED_BARE * missing - (double) n_beside / ALL_SAMPLES);
+        beside  = area * n_beside / ALL_SAMPLES;
+        missing = fmax (area * n_bare / ALL_SAMPLES, shaft ? FILLED_BESIDE - beside : 0);
+        cost    = FILLED_BARE * missing - beside;
         if (cost < best)
           {
             best  = cost;
-            *bare = area * missing;
+            *bare = missing;
             *end  = corner;
           }
       }

@@ -409,6 +409,32 @@ dots_round_a_hub (void)
   CHECK (right >= 0.9 * 40 * 6);
 }
 
+/* Five with open heads that arrive at one place, and one that leaves it: their barbs lie on each other and on shafts,
+ * and heads at the other ends would fit the paint if barbs might lie on the shafts that have them. */
+static void
+heads_round_a_hub (void)
+{
+  uint32_t state = 47;
+  int      right = 0;
+
+  for (int i = 0; i < 40; i++)
+    {
+      double w = random_between (&state, 4, 6), turn = random_between (&state, 0, 6.28);
+      Point  middle = { SIZE / 2., SIZE / 2. };
+      Arrow  a[6];
+
+      for (int k = 0; k < 6; k++)
+        {
+          double angle = turn + 1.0472 * k + random_between (&state, -0.15, 0.15);
+          double length = random_between (&state, 75, 95);
+
+          a[k] = through (middle, k ? angle : angle + 3.14159265, length, k != 0, w, CELD_ARROW_HEAD, true);
+        }
+      right += read_all (a, 6, CELD_ARROW_HEAD, &state);
+    }
+  CHECK (right >= 0.85 * 40 * 6);
+}
+
 /* Two that leave one place, and one that crosses both: it goes on where its opacity or width does. */
 static void
 crossed_on_the_way (void)
@@ -464,6 +490,7 @@ main (void)
   RUN (a_star_that_leads_on);
   RUN (a_hub);
   RUN (dots_round_a_hub);
+  RUN (heads_round_a_hub);
   RUN (crossed_on_the_way);
   RUN (swelling_strokes);
   RUN (bare_strokes);
