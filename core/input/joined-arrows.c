@@ -6,7 +6,7 @@
  *
  * Those with heads or dots are also read by the choice of arrows that explains all their paint best (search-arrows.c).
  * That finds more where many meet, the graph where few do, so what finds more clear arrows counts; where they
- * contradict each other, nothing is read.
+ * contradict each other, or the search finds an arrow of the graph unclear, nothing is read.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -128,17 +128,23 @@ count_clear (const CeldJoinedLines *s, const CeldLineArrow *arrows)
   return n;
 }
 
-/* Makes arrows unclear that are clear in both ways, but in opposite directions. */
+/* Makes arrows unclear that are clear in both ways, but in opposite directions.  Of the lines' arrows with heads also
+ * those that the search has turned round, or found unclear: it sees which paint they leave unexplained.  Round dots
+ * there is always some. */
 static void
 leave_contradictions (const CeldJoinedLines *s, CeldLineArrow *one, const CeldJoinedLines *other, CeldLineArrow *found)
 {
   double near = ENDS_ALIKE * s->graph.width + 2;
+  bool   dot = s->style == CELD_ARROW_DOT;
 
   for (size_t i = 0; i < s->graph.n_lines; i++)
-    for (size_t k = 0; k < other->graph.n_lines; k++)
-      if (!one[i].unclear && !found[k].unclear && celd_points_apart (one[i].nearer, found[k].farther) < near &&
+    for (size_t k = 0; k < other->graph.n_lines && !one[i].unclear; k++)
+      if ((!dot || !found[k].unclear) && celd_points_apart (one[i].nearer, found[k].farther) < near &&
           celd_points_apart (one[i].farther, found[k].nearer) < near)
         one[i].unclear = found[k].unclear = CELD_REASON_MEETING;
+      else if (!dot && celd_points_apart (one[i].nearer, found[k].nearer) < near &&
+               celd_points_apart (one[i].farther, found[k].farther) < near)
+        one[i].unclear = found[k].unclear;
 }
 
 /* Reads lines with heads or dots in both ways, unless others hide some of their paint.  The lines become those of the
