@@ -20,7 +20,9 @@
 
 #define LONGER_SIDE   256  /* cells along the longer side of a page, at most (chosen) */
 #define CELL_SAMPLES  4    /* pixels looked at along each side of a large cell (chosen) */
-#define LINE_RADIUS   3    /* cells: half the width of the broadest lines (chosen) */
+#define LINE_RADIUS   3    /* cells: half the width of the broadest lines that tell exchanged layers (chosen) ... */
+#define BROAD_RADIUS  8    /* ... and of those of a layer that is compared with the drawing line by line, which knows
+                            * lines as broad (chosen) */
 #define CELL_CONTRAST 48   /* of 255: of a line with what is on both sides; chosen */
 #define ROOM_SHARE    2000 /* a room is at least 1 / this of the page (chosen) */
 #define ROOM_SIDE     64   /* pixels; smaller pages have no rooms that tell anything (chosen) */
@@ -85,17 +87,17 @@ cells_new (const CeldPaint *paint, bool darkest, CeldMask *cells)
 
 /* Labels what is no line 1, and lines 0; `labels` is tight. */
 static CeldStatus
-find_lines (const CeldMask *cells, CeldLabels *labels)
+find_lines (const CeldMask *cells, int radius, CeldLabels *labels)
 {
   CeldMask   closed = *cells;
-  void      *work = celd_alloc (celd_erosion_work (cells->width, LINE_RADIUS), 1);
+  void      *work = celd_alloc (celd_erosion_work (cells->width, radius), 1);
   size_t     n = cells->stride * (size_t) cells->height;
   CeldStatus status = CELD_NO_MEMORY;
 
   closed.data = celd_alloc (n, 1);
   if (work && closed.data)
     {
-      celd_close_bytes (cells, LINE_RADIUS, work, &closed);
+      celd_close_bytes (cells, radius, work, &closed);
       for (size_t i = 0; i < n; i++)
         labels->data[i] = closed.data[i] - cells->data[i] <= CELL_CONTRAST;
       status = CELD_OK;
@@ -106,7 +108,7 @@ find_lines (const CeldMask *cells, CeldLabels *labels)
 }
 
 static CeldStatus
-count_rooms (const CeldPaint *paint, bool darkest, size_t *n_rooms)
+count_rooms (const CeldPaint *paint, bool darkest, int radius, size_t *n_rooms)
 {
   CeldMask       cells = { 0 };
   CeldLabels     labels = { 0 };
@@ -121,7 +123,7 @@ count_rooms (const CeldPaint *paint, bool darkest, size_t *n_rooms)
   if (status == CELD_OK)
     status = celd_labels_new (cells.width, cells.height, &labels);
   if (status == CELD_OK)
-    status = find_lines (&cells, &labels);
+    status = find_lines (&cells, radius, &labels);
   if (status == CELD_OK)
     status = celd_components (&labels, 0, false, NULL, &labels, &part, &n);
   for (size_t k = 0; k < n && status == CELD_OK; k++)
@@ -210,7 +212,7 @@ celd_may_be_drawing (const CeldPaint *scribbles, bool *may_be)
 {
   size_t     rooms = 0;
   bool       grey = celd_is_grey (scribbles);
-  CeldStatus status = grey ? CELD_OK : count_rooms (scribbles, false, &rooms);
+  CeldStatus status = grey ? CELD_OK : count_rooms (scribbles, false, BROAD_RADIUS, &rooms);
 
   *may_be = grey || rooms > 1;
   return status;
@@ -223,12 +225,12 @@ compare_rooms (const CeldPaint *drawing, const CeldPaint *scribbles, bool *excha
 {
   bool       plain = celd_is_grey (scribbles) && celd_is_coloured_strokes (drawing);
   size_t     rooms = 0, dark = 0, narrow = 0;
-  CeldStatus status = count_rooms (scribbles, false, &rooms);
+  CeldStatus status = count_rooms (scribbles, false, LINE_RADIUS, &rooms);
 
   if (status == CELD_OK)
-    status = count_rooms (drawing, false, &dark);
+    status = count_rooms (drawing, false, LINE_RADIUS, &dark);
   if (status == CELD_OK)
-    status = count_rooms (drawing, true, &narrow);
+    status = count_rooms (drawing, true, LINE_RADIUS, &narrow);
   *exchanged = plain ? dark <= rooms
                      : rooms >= LEAST_ROOMS && MORE_ROOMS * (dark > narrow ? dark : narrow) <= rooms;
   return status;

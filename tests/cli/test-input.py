@@ -16,8 +16,8 @@ import zlib
 import numpy as np
 from PIL import Image, ImageDraw, ImageOps, TiffImagePlugin
 
-from pictures import (BLUE, COMMAND, HEIGHT, IN_A, IN_B, IN_PAGE, RED, RELATIONS, WIDTH, Test, at, drawing, scribbles, write_exr,
-                      write_ora, write_psd)
+from pictures import (BLUE, COMMAND, GREEN, HEIGHT, IN_A, IN_B, IN_PAGE, RED, RELATIONS, WIDTH, Test, at, drawing, scribbles,
+                      write_exr, write_ora, write_psd)
 
 
 def layers():
@@ -544,6 +544,29 @@ class Nonsense(Test):
         self.fails(*words, 'grey.png', naming='"grey.png" has the lines of the drawing, and no colours')
         self.assertIn('"coloured.png" has the lines of the drawing, too: ', self.celdepth(*words, 'coloured.png'))
         self.assertNotIn('lines', self.celdepth(*words, 'coloured.png', '--quiet'))
+
+    def test_broad_lines_in_a_layer(self):
+        """Strokes on a copy of a drawing in lines of a fortieth of the page; strokes alone are none."""
+        page = Image.new('RGB', (1000, 700), 'white')
+        draw = ImageDraw.Draw(page)
+        for box in ([60, 60, 480, 640], [540, 60, 940, 330], [540, 390, 940, 640]):
+            draw.rectangle(box, outline='black', width=26)
+        page.save(self.path('drawing.png'))
+        alone = Image.new('RGB', page.size, 'white')
+        for to in (page, alone):
+            draw = ImageDraw.Draw(to)
+            draw.line([(150, 200), (380, 500)], fill=RED, width=25)
+            draw.line([(640, 200), (840, 210)], fill=BLUE, width=25)
+            draw.line([(640, 500), (840, 510)], fill=GREEN, width=25)
+        page.save(self.path('on.png'))
+        alone.save(self.path('scribbles.png'))
+        words = 'segment', 'drawing.png', '--labels', 'l.png', '--scribbles'
+        says = self.celdepth(*words, 'on.png')
+        self.assertIn('"on.png" has the lines of the drawing, too: ', says)
+        self.assertEqual(self.celdepth(*words, 'scribbles.png'), '')
+        os.remove(self.path('l.png'))
+        self.fails('popup', 'drawing.png', '--scribbles', 'scribbles.png', '--arrows', 'on.png', '--depth', 'd.png',
+                   naming='"on.png" has the lines of the drawing: give a layer with the strokes alone')
 
     def test_drawings_as_levels(self):
         """Those of single steps, and what is given beside them; expansion does not look at lines."""
