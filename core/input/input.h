@@ -189,6 +189,9 @@ bool celd_scribble_thin (const CeldScribbleLayer *r);
  * paper. */
 CeldStatus celd_scribble_restore (CeldScribbleLayer *r, const CeldHost *host, CeldPaint *out);
 
+/* scribble-tints.c: makes soft strokes on paper flat; overwrites label and kind. */
+CeldStatus celd_scribble_tints (CeldScribbleLayer *r);
+
 /* scribble-clusters.c: fills in cluster, from colours whose solid and interior pixels are counted. */
 CeldStatus celd_scribble_clusters (CeldScribbleLayer *r, const CeldHost *host);
 

@@ -462,6 +462,44 @@ narrow_translucent_strokes_on_paper (void)
     }
 }
 
+/* Strokes of a soft pen whose pressure changes their opacity, on white: each is one label, in its strongest tint.  Two
+ * hard strokes in tints of one colour remain two, also where they touch. */
+static void
+pressure_on_paper (void)
+{
+  const uint8_t pink[3] = { 255, 170, 170 };
+  int           wrong = 0;
+
+  for (int period = 30; period <= 90; period += 20)
+    {
+      clear_paint (true);
+      for (int y = 0; y < HEIGHT; y++)
+        for (int x = 30; x < 370; x++)
+          for (int k = 0; k < 2; k++)
+            {
+              double away = fabs (y - (k ? 210 : 80) - 20 * sin (x / 50.));
+              double pressure = 0.7 + 0.3 * cos (x * 6.2832 / period);
+
+              lay (x, y, k ? blue : red, pressure * fmin (fmax ((10 - away) / 3, 0), 1));
+            }
+      CHECK (read_size (WIDTH, HEIGHT) == CELD_OK && palette.n == 2);
+      CHECK (in_palette (red, 4) && in_palette (blue, 4));
+      for (int x = 40; x < 360; x++)
+        for (int k = 0; k < 2; k++)
+          wrong += seed_of[((k ? 210 : 80) + (int) lrint (20 * sin (x / 50.))) * WIDTH + x] !=
+                   seed_of[(k ? 221 : 91) * WIDTH + 30];
+    }
+  CHECK (wrong == 0 && seed_of[91 * WIDTH + 30]);
+
+  clear_paint (true);
+  block (60, 100, 100, 16, red);
+  block (160, 100, 100, 16, pink);
+  for (int y = 100; y < 116; y++)
+    lay (160, y, red, 0.5);
+  CHECK (read_size (WIDTH, HEIGHT) == CELD_OK && palette.n == 2);
+  CHECK (in_palette (red, 0) && in_palette (pink, 0));
+}
+
 /* A row of pixels with these three opacities, 200 each. */
 static void
 row_of_opacities (int first, int second, int third)
@@ -566,6 +604,7 @@ main (void)
   RUN (lossy_paint);
   RUN (flats_and_paper);
   RUN (soft_brushes_on_paper);
+  RUN (pressure_on_paper);
   RUN (blurred_strokes_on_paper);
   RUN (narrow_translucent_strokes_on_paper);
   RUN (faint_strokes);
