@@ -1,4 +1,5 @@
-/* The name that was probably meant: the nearest one by Damerau-Levenshtein distance (optimal string alignment).
+/* The name that was probably meant: the nearest one by Damerau-Levenshtein distance (optimal string alignment), or the
+ * only one that ends in the word, after a hyphen.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -29,21 +30,38 @@ distance (const char *a, const char *b)
   return d[n][m];
 }
 
+/* The only name that is longer than the word by parts before it; NULL if there is none, or several. */
+static const char *
+longer_name (const char *word, const char *const *names)
+{
+  g_autofree char *end = g_strconcat ("-", word, NULL);
+  const char      *found = NULL;
+
+  for (; word[0] && *names; names++)
+    if (g_str_has_suffix (*names, end))
+      {
+        if (found)
+          return NULL;
+        found = *names;
+      }
+  return found;
+}
+
 const char *
 cli_nearest_name (const char *word, const char *const *names)
 {
   const char *nearest = NULL;
   size_t      least = strlen (word) / 3 + 1; /* up to a third of the characters may be wrong */
 
-  for (; *names; names++)
+  for (size_t i = 0; names[i]; i++)
     {
-      size_t away = distance (word, *names);
+      size_t away = distance (word, names[i]);
 
       if (away < least)
         {
           least   = away;
-          nearest = *names;
+          nearest = names[i];
         }
     }
-  return nearest;
+  return nearest ? nearest : longer_name (word, names);
 }

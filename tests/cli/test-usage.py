@@ -281,9 +281,11 @@ class Usage(Test):
     def test_did_you_mean(self):
         for words, meant in ((['popip'], "'popup'"), (['inbewteen'], "'inbetween'"),
                              (['popup', 'drawing.png', '--scribles', 'x.png'], '--scribbles'),
-                             (['popup', 'drawing.png', '--colors=x.png'], '--colours')):
+                             (['popup', 'drawing.png', '--colors=x.png'], '--colours'),
+                             (['order', 'labels.png', '--levels', 'x.npy'], '--unexpanded-levels')):
             self.assertIn(f'Did you mean {meant}?', self.celdepth(*words, code=2))
-        for words in (['dance'], ['popup', 'drawing.png', '--quixotic'], ['x' * 200], ['popup', '--' + 'y' * 200]):
+        for words in (['dance'], ['popup', 'drawing.png', '--quixotic'], ['segment', 'drawing.png', '--depth', 'x.png'],
+                      ['x' * 200], ['popup', '--' + 'y' * 200]):
             self.assertNotIn('Did you mean', self.celdepth(*words, code=2))
 
     def test_hints_about_values(self):
