@@ -7,7 +7,7 @@
  * than a step, or much of the weaker one has one colour.  What is paler than a third of its stroke is none, as on a
  * transparent layer.  Mixtures of strokes that cross are left to scribble-overlaps.c.
  *
- * Cost: O(pixels), and O(strokes^2) of those that are soft; 4 bytes a pixel, and 32 a piece.
+ * Cost: O(pixels), and O(strokes^2) of those that are soft; 4 bytes a pixel, and 40 a piece.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -21,14 +21,16 @@
 #define SOFT_STEP     0.15 /* of the contrast of a stroke, from pixel to pixel in a soft one, at most; chosen */
 #define SADDLE        0.2  /* of the contrast of the weaker one, where two pieces join, at least; chosen */
 #define MIXTURE_ERROR 3    /* of 255, from a tint to the mixtures of paper and paint, at most: rounding */
+#define PALE          1.5  /* times as much contrast as a pale pixel has its stroke, at least; sharpening does less */
+#define LEAST_PALE    8    /* of a soft stroke at least an eighth is pale; chosen */
 #define FLAT_PAINT    8    /* a stroke has flat paint if more than an eighth is inside one tint; chosen */
 #define SAME_PAINT    12   /* of 255: from the colour of a stroke to others that mean the same, at most; chosen */
 #define PAINT_SHARE   3    /* a pixel is paint from one third of the contrast of its stroke on, as with alpha */
 #define MANY_STROKES  4096 /* more are not compared; chosen */
 
-/* A piece: its strongest colour; how many pixels are paint, and inside another colour; the colour that most of these
- * have, if one has; its border, and how much of that is with other paint. */
-typedef struct { uint32_t id, paint, inside, tint, votes, of_tint, border, foreign; } TintPiece;
+/* A piece: its strongest colour; how many pixels it has, how many of them are pale, paint, and paint inside another
+ * colour; the colour that most of these have, if one has; its border, and how much of that is with other paint. */
+typedef struct { uint32_t id, all, pale, paint, inside, tint, votes, of_tint, border, foreign; } TintPiece;
 
 static int
 contrast_of (const CeldScribbleLayer *r, uint32_t id)
@@ -194,6 +196,8 @@ measure_pieces (const CeldScribbleLayer *r, const uint16_t *contrast, TintPiece 
             visit_border (r, piece, p, p + 1);
           if (y + 1 < r->height)
             visit_border (r, piece, p, p + (size_t) r->width);
+          k->all++;
+          k->pale += PALE * contrast[r->id[p]] < contrast[k->id];
           k->paint += paint;
           if (!tint)
             continue;
@@ -205,14 +209,15 @@ measure_pieces (const CeldScribbleLayer *r, const uint16_t *contrast, TintPiece 
 
 /* ------------------------------------------------------------------ one colour for each stroke */
 
-/* The colour of a piece if it is a soft stroke, else 0: it has tints that would be labels, it is not the mixture of two
- * strokes, which lies between these, and if much of it is flat, this has the colour of the stroke, or nearly so. */
+/* The colour of a piece if it is a soft stroke, else 0: it has tints that would be labels, and pale ones, it is not the
+ * mixture of two strokes, which lies between these, and if much of it is flat, this has its colour, or nearly so. */
 static uint32_t
 soft_colour (const CeldScribbleLayer *r, const TintPiece *k)
 {
   bool flat = 2 * k->of_tint > k->inside && FLAT_PAINT * k->of_tint > k->paint;
 
-  if (k->inside < CELD_LEAST_DOT || 2 * k->foreign > k->border || (flat && differ (r, k->tint, k->id, SAME_PAINT)))
+  if (k->inside < CELD_LEAST_DOT || LEAST_PALE * k->pale < k->all || 2 * k->foreign > k->border ||
+      (flat && differ (r, k->tint, k->id, SAME_PAINT)))
     return 0;
   return flat ? k->tint : k->id;
 }
