@@ -18,6 +18,7 @@
 #define MOST_REST 1000 /* milliseconds until the next one: a tick that waits for a busy GIMP takes seconds; chosen */
 #define IDLE_TICK 120 /* milliseconds between ticks when nothing has changed for IDLE_AFTER microseconds; chosen */
 #define IDLE_AFTER 3000000
+#define SEARCHES  8   /* for a layer in vain, until it has gone; chosen */
 
 typedef struct
 {
@@ -31,8 +32,11 @@ typedef struct
   GtkWidget        *window, *choice, *write, *spinner;
   int               relief_width, relief_height; /* that the solver was asked for last */
   gboolean          ask;                        /* whether the solver has to be asked, whatever is changed */
+  gboolean          waiting;                    /* for the last answer to what it was asked */
   const Babl       *format[CELD_N_PICTURES];    /* of pictures that are written into layers; NULL: not written */
   guint             layers;                     /* pictures that have had a layer since `write` was ticked, as bits */
+  GeglBuffer       *written[CELD_N_PICTURES];   /* last into their layers; NULL: not yet */
+  int               turn;                       /* the picture that was last written again */
   gint64            changed;                    /* when */
 } Live;
 
@@ -105,16 +109,33 @@ answered (CeldLiveAnswer *answer, gpointer data)
   if (answer->pixels)
     celd_live_view_put (live->view, answer);
   if (answer->buffer && live->format[answer->picture] && gimp_image_is_valid (live->image))
-    write_picture (live, (CeldPicture) answer->picture, answer->buffer);
+    {
+      write_picture (live, (CeldPicture) answer->picture, answer->buffer);
+      g_set_object (&live->written[answer->picture], answer->buffer);
+    }
   if (answer->problems)
     show_problems (live, answer->problems);
   if (answer->error)
     show_sentence (live, answer->error);
   if (answer->last)
-    gtk_spinner_stop (GTK_SPINNER (live->spinner));
+    {
+      live->waiting = FALSE;
+      gtk_spinner_stop (GTK_SPINNER (live->spinner));
+    }
 }
 
 /* ------------------------------------------------------------------ what is written */
+
+/* Whether there is no layer of a picture.  GIMP answers for one layer at a time, so that one which is being replaced
+ * may not be found; but not so many times. */
+static gboolean
+has_gone (GimpImage *image, int picture)
+{
+  for (int search = 0; search < SEARCHES; search++)
+    if (celd_results_find (image, celd_pictures[picture].argument))
+      return FALSE;
+  return TRUE;
+}
 
 /* Looks for the layers that are written: those that the group has, and those of what is shown.  A layer that has gone
  * was removed, or its making undone: then nothing is written any more. */
@@ -128,8 +149,7 @@ look_for_layers (Live *live)
   for (int picture = 0; picture < CELD_POPUP_PICTURES; picture++)
     {
       format[picture] = celd_live_write_format (live->image, (CeldPicture) picture);
-      gone            = gone || (live->layers & 1u << picture && !format[picture] &&
-                      !celd_results_find (live->image, celd_pictures[picture].argument));
+      gone            = gone || (live->layers & 1u << picture && !format[picture] && has_gone (live->image, picture));
       live->layers   |= format[picture] ? 1u << picture : 0;
     }
   for (int i = 0; i < view->n; i++)
@@ -139,9 +159,22 @@ look_for_layers (Live *live)
     {
       live->ask            = live->ask || format[picture] != live->format[picture];
       live->format[picture] = format[picture];
+      if (!format[picture])
+        g_clear_object (&live->written[picture]);
     }
   if (gone)
     gtk_toggle_button_set_active (GTK_TOGGLE_BUTTON (live->write), FALSE);
+}
+
+static void
+forget_pictures (Live *live)
+{
+  live->layers = 0;
+  for (int picture = 0; picture < CELD_N_PICTURES; picture++)
+    {
+      live->format[picture] = NULL;
+      g_clear_object (&live->written[picture]);
+    }
 }
 
 static void
@@ -149,11 +182,26 @@ write_toggled (GtkToggleButton *button, gpointer data)
 {
   Live *live = data;
 
-  live->layers = 0;
-  for (int picture = 0; picture < CELD_N_PICTURES; picture++)
-    live->format[picture] = NULL;
+  forget_pictures (live);
   if (gtk_toggle_button_get_active (button))
     look_for_layers (live);
+}
+
+/* Writes one of the pictures again.  A layer that was replaced, resized, locked or painted on, by the artist or by
+ * another plug-in, may not have what was written: that may have gone into the one before, or been lost since.  Nothing
+ * but its pixels tells.  A layer that has the picture is only read. */
+static void
+write_again (Live *live)
+{
+  for (int i = 0; i < CELD_N_PICTURES; i++)
+    {
+      live->turn = (live->turn + 1) % CELD_N_PICTURES;
+      if (live->written[live->turn])
+        {
+          write_picture (live, (CeldPicture) live->turn, live->written[live->turn]);
+          return;
+        }
+    }
 }
 
 /* ------------------------------------------------------------------ the tick */
@@ -173,7 +221,8 @@ ask (Live *live)
     request->format[picture] = live->format[picture];
   celd_live_solver_ask (live->solver, request);
   gtk_spinner_start (GTK_SPINNER (live->spinner));
-  live->ask = FALSE;
+  live->ask     = FALSE;
+  live->waiting = TRUE;
 }
 
 /* Nothing of the relief is made while nobody sees it, and it is made as large as it is seen. */
@@ -214,6 +263,8 @@ follow (Live *live)
   look_at_view (live);
   if (news == CELD_LIVE_CHANGED || live->ask)
     ask (live);
+  else if (looked && !live->waiting)
+    write_again (live);
   return TRUE;
 }
 
@@ -325,6 +376,7 @@ show_window (GimpImage *image, const char *sender, GimpProcedureConfig *config)
   if (live.window)
     gtk_widget_destroy (live.window);
   celd_live_follower_free (live.follower);
+  forget_pictures (&live);
   g_main_loop_unref (live.loop);
 }
 
