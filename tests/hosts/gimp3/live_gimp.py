@@ -67,7 +67,7 @@ class Gimp:
         self.start('openbox')
         self.gimp = self.start('gimp-3.0', '--new-instance', '--no-splash', '--batch-interpreter', 'python-fu-eval', '-b',
                                f"exec(open('{HERE}/live-host.py').read())")
-        self.main = self.window('frog.xcf')
+        self.main = self.window('frog.xcf', 4 * PATIENCE) # a user's first GIMP looks at all of its plug-ins
         self.tell('pass')
         time.sleep(2)
         for welcome in xdotool('search', '--onlyvisible', '--name', '^Welcome'):
@@ -94,9 +94,9 @@ class Gimp:
         """Ends what tell() talks to."""
         open(os.path.join(OUT, 'stop'), 'w').close()
 
-    def window(self, name):
+    def window(self, name, patience=PATIENCE):
         """Waits for a window of this name."""
-        found = wait_for(lambda: xdotool('search', '--onlyvisible', '--name', name), pause=0.5)
+        found = wait_for(lambda: xdotool('search', '--onlyvisible', '--name', name), patience, pause=0.5)
         if not found:
             raise RuntimeError(f'there is no window "{name}"')
         return found[-1]
