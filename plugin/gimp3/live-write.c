@@ -150,15 +150,18 @@ write_difference (GeglBuffer *buffer, GeglBuffer *picture, int x, int y)
   return changed;
 }
 
-/* The layer may have been moved or cropped; so its copy has its place. */
+/* The layer may have been moved or cropped; so its copy has its place.  A layer that has been locked since it was found
+ * has a locked copy, and GIMP would end this process if it wrote into that. */
 static void
 update_layer (const CeldLiveTarget *target, GimpLayer *layer, GeglBuffer *picture)
 {
   GimpLayer    *copy = target->own ? gimp_layer_new_from_drawable (GIMP_DRAWABLE (layer), target->own) : NULL;
-  GeglBuffer   *buffer = copy ? gimp_drawable_get_buffer (GIMP_DRAWABLE (copy)) : NULL;
+  GeglBuffer   *buffer = NULL;
   GeglRectangle changed = { 0 };
   int           x = 0, y = 0;
 
+  if (copy && !gimp_item_get_lock_content (GIMP_ITEM (copy)))
+    buffer = gimp_drawable_get_buffer (GIMP_DRAWABLE (copy));
   if (buffer)
     {
       gimp_drawable_get_offsets (GIMP_DRAWABLE (copy), &x, &y);
