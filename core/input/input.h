@@ -7,6 +7,7 @@
  *   scribble-loss.c      restores thin strokes whose chroma a codec has smeared
  *   scribble-pieces.c    finds these strokes by luma, block by block
  *   scribble-unmix.c     what colours these strokes had
+ *   scribble-tints.c     soft strokes on paper, each made flat in one colour
  *   scribble-clusters.c  which colours are labels
  *   scribble-overlaps.c  which are only mixtures of two strokes that cross
  *   scribble-places.c    which pixels each label has

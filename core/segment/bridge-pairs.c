@@ -65,7 +65,7 @@ width_ratio (const CeldTip *p, const CeldTip *q)
 static bool
 may_join (const CeldTipPairs *s, const CeldTip *p, const CeldTip *q, double *cost)
 {
-  double x = q->x - p->x, y = q->y - p->y, length = hypot (x, y), stroke = fmin (p->stroke, q->stroke), least;
+  double x = q->x - p->x, y = q->y - p->y, length = hypot (x, y), stroke = celd_finer_stroke (p, q), least;
   double turn = (x * p->dx + y * p->dy) / length, other = -(x * q->dx + y * q->dy) / length;
   double side = x * p->dy - y * p->dx, other_side = x * q->dy - y * q->dx;
 

@@ -64,7 +64,7 @@ certainty (const CeldTip *p, const CeldTip *q)
   double turn = (x * p->dx + y * p->dy) / length, other = -(x * q->dx + y * q->dy) / length;
 
   return ramp (fmin (turn, other), CERTAIN_COSINE, DOUBTFUL_COSINE) *
-         ramp (length / fmin (p->stroke, q->stroke), CERTAIN_LENGTH, DOUBTFUL_LENGTH);
+         ramp (length / celd_finer_stroke (p, q), CERTAIN_LENGTH, DOUBTFUL_LENGTH);
 }
 
 /* Adds a pixel to the last bridge, unless it is the previous one or ink. */
@@ -139,7 +139,7 @@ build_between (BridgeBuilder *b, const CeldTipPair *pair)
 
   b->faintness = CELD_FAINTEST_INK * (float) (1 - certainty (&b->tip[pair->a], &b->tip[pair->b]));
   status       = build (b, (CeldBridge) { .ahead = false }, place, n,
-                        fmin (b->tip[pair->a].stroke, b->tip[pair->b].stroke), &built);
+                        celd_finer_stroke (&b->tip[pair->a], &b->tip[pair->b]), &built);
   if (built)
     b->taken[pair->a] = b->taken[pair->b] = true;
   return status;

@@ -14,6 +14,13 @@
  * strokes among which it was found: that of the drawing, or less for lines that are finer. */
 typedef struct { double x, y, dx, dy; uint32_t outline; double width, stroke; } CeldTip;
 
+/* The width of strokes that lengths between two line ends are measured by: that of the finer line. */
+static inline double
+celd_finer_stroke (const CeldTip *p, const CeldTip *q)
+{
+  return p->stroke < q->stroke ? p->stroke : q->stroke;
+}
+
 /* Finds all line ends, in the order of their first pixels; the caller frees *tip with celd_free.  `stroke`:
  * celd_stroke_width. */
 CeldStatus celd_line_ends_find (const CeldPlane *ink, int stroke, const CeldHost *host, CeldTip **tip, size_t *n);

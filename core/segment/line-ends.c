@@ -40,6 +40,9 @@
 #define PIXEL_INK   1 /* a pixel of ink */
 #define PIXEL_FOLLOWED 2 /* its upper edge has been followed */
 
+/* Arms of one length.  stroke: the width of strokes whose ends they find; end: for fitting them. */
+typedef struct { size_t arm; double stroke; CeldLineEnd *end; } Scale;
+
 typedef struct
 {
   const CeldPlane *ink;
@@ -49,9 +52,9 @@ typedef struct
   CeldCorner      *corner;      /* of the current outline */
   size_t           n;
   uint32_t         outline;     /* its number */
-  double           arm[MOST_FINER + 1]; /* [0]: the shortest for the strokes; [1] ..: for finer lines, the finest first */
-  CeldLineEnd      end[MOST_FINER + 1]; /* for fitting lines at that scale */
-  int              n_finer;
+  Scale            scale[MOST_FINER + SCALES]; /* the finest first */
+  int              n_scales;
+  CeldLineEnd      end[MOST_FINER + 1]; /* for fitting: [0] the strokes, [1] .. finer lines */
   CeldTip         *tip;
   uint32_t        *before;      /* of tip k: the one before it in its cell, or NO_TIP */
   size_t           n_tips;
@@ -252,24 +255,25 @@ find_ink (const LineEndSearch *s, CeldCorner corner, CeldPlace middle, CeldCorne
 /* Adds the corner if a line ends there.  A very sharp tip (CERTAIN_TIP) counts even if its line is too short or too
  * curved to fit a direction.  At finer scales only lines of even width count: all else is a corner or a ragged edge. */
 static CeldStatus
-try_corner (LineEndSearch *s, size_t i, size_t arm, int finer, CeldPlace middle, double sharp)
+try_corner (LineEndSearch *s, size_t i, const Scale *scale, CeldPlace middle, double sharp)
 {
   CeldCorner   corner = s->corner[i];
-  CeldLineEnd *fit = &s->end[finer];
-  double       back = hypot (middle.x - corner.x, middle.y - corner.y), width = line_width (s, i, arm);
+  CeldLineEnd *fit = scale->end;
+  double       back = hypot (middle.x - corner.x, middle.y - corner.y), width = line_width (s, i, scale->arm);
   double       estimated = 2 * sharp * back; /* the width of the line, whether even or not */
+  bool         is_finer = scale->stroke < s->stroke;
   CeldCorner   inside;
-  CeldTip      end = { .outline = s->outline, .width = width, .stroke = finer ? s->arm[finer] / ARM_LENGTH : s->stroke };
+  CeldTip      end = { .outline = s->outline, .width = width, .stroke = scale->stroke };
 
   if (!*mask_at (s, (int) floor (middle.x), (int) floor (middle.y)) || back < 1 ||
-      (finer && (width == 0 || width > FINE_LINE * s->stroke)) || !find_ink (s, corner, middle, &inside))
+      (is_finer && (width == 0 || width > FINE_LINE * s->stroke)) || !find_ink (s, corner, middle, &inside))
     return CELD_OK;
   celd_line_end_fit (s->ink, inside, fit);
   end.x  = fit->tip ? fit->at.x : corner.x;
   end.y  = fit->tip ? fit->at.y : corner.y;
   end.dx = fit->tip ? fit->dx : (corner.x - middle.x) / back;
   end.dy = fit->tip ? fit->dy : (corner.y - middle.y) / back;
-  if ((!fit->tip && sharp > CERTAIN_TIP) || is_known (s, end, estimated, (double) arm / ARM_STEPS))
+  if ((!fit->tip && sharp > CERTAIN_TIP) || is_known (s, end, estimated, (double) scale->arm / ARM_STEPS))
     return CELD_OK;
   return add_tip (s, end);
 }
@@ -277,9 +281,9 @@ try_corner (LineEndSearch *s, size_t i, size_t arm, int finer, CeldPlace middle,
 /* Examines one corner of each turn of the outline: where both sides of the line are nearest.  That is in the middle of
  * its end even if the end is hollow, with sharper corners at both sides. */
 static CeldStatus
-search_outline (LineEndSearch *s, size_t arm, int finer)
+search_outline (LineEndSearch *s, const Scale *scale)
 {
-  size_t     step = arm / ARM_STEPS ? arm / ARM_STEPS : 1;
+  size_t     arm = scale->arm, step = arm / ARM_STEPS ? arm / ARM_STEPS : 1;
   CeldStatus status = CELD_OK;
 
   if ((double) s->n < LEAST_OUTLINE * (double) arm)
@@ -307,7 +311,7 @@ search_outline (LineEndSearch *s, size_t arm, int finer)
             }
         }
       if (is_inked (s, best, arm) && is_inked (s, best, arm / 2))
-        status = try_corner (s, best, arm, finer, middle, least);
+        status = try_corner (s, best, scale, middle, least);
     }
   return status;
 }
@@ -315,33 +319,31 @@ search_outline (LineEndSearch *s, size_t arm, int finer)
 static CeldStatus
 search_from (LineEndSearch *s, int x, int y)
 {
-  double     arm = s->arm[0];
   CeldStatus status = follow (s, x, y);
 
   s->outline++;
-  for (int k = 1; k <= s->n_finer && status == CELD_OK; k++)
-    status = search_outline (s, (size_t) s->arm[k], k);
-  for (int scale = 0; scale < SCALES && status == CELD_OK; scale++, arm *= SCALE_FACTOR)
-    status = search_outline (s, (size_t) arm, 0);
+  for (int k = 0; k < s->n_scales && status == CELD_OK; k++)
+    status = search_outline (s, &s->scale[k]);
   return status;
 }
 
 /* ------------------------------------------------------------------ the whole */
 
-/* Chooses the scales, and makes room for fitting the ends of lines at each of them. */
+/* Chooses the scales, and makes room for fitting the ends of lines. */
 static CeldStatus
 make_scales (LineEndSearch *s)
 {
   double     arm = SHORTEST_ARM, most = ARM_LENGTH * FINE_LINE * s->stroke;
-  CeldStatus status;
+  CeldStatus status = celd_line_end_new (s->stroke, &s->end[0]);
 
-  s->arm[0] = fmax (SHORTEST_ARM, ARM_LENGTH * s->stroke);
-  status    = celd_line_end_new (s->stroke, &s->end[0]);
-  for (; arm <= most && s->n_finer < MOST_FINER && status == CELD_OK; arm *= SCALE_FACTOR)
+  for (int k = 1; k <= MOST_FINER && arm <= most && status == CELD_OK; k++, arm *= SCALE_FACTOR)
     {
-      s->arm[++s->n_finer] = arm;
-      status               = celd_line_end_new ((int) (arm / ARM_LENGTH), &s->end[s->n_finer]);
+      s->scale[s->n_scales++] = (Scale) { (size_t) arm, arm / ARM_LENGTH, &s->end[k] };
+      status                  = celd_line_end_new ((int) (arm / ARM_LENGTH), &s->end[k]);
     }
+  arm = fmax (SHORTEST_ARM, ARM_LENGTH * s->stroke);
+  for (int k = 0; k < SCALES; k++, arm *= SCALE_FACTOR)
+    s->scale[s->n_scales++] = (Scale) { (size_t) arm, s->stroke, &s->end[0] };
   return status;
 }
 
@@ -373,7 +375,7 @@ celd_line_ends_find (const CeldPlane *ink, int stroke, const CeldHost *host, Cel
       if (status == CELD_OK && (y & 255) == 255)
         status = celd_progress (host, (double) y / s.height);
     }
-  for (int k = 0; k <= s.n_finer; k++)
+  for (int k = 0; k <= MOST_FINER; k++)
     celd_line_end_clear (&s.end[k]);
   celd_free (s.mask);
   celd_free (s.corner);
