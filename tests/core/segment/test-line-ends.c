@@ -40,32 +40,44 @@ draw_arc (Scene *s, double radius, double from, double to, double width)
     }
 }
 
-/* The tip is half a width behind what a round brush leaves. */
+/* Draws a line of half that length both ways from the middle, and checks that both of its ends are found, at most `off`
+ * pixels away: the tip is half a width behind what a round brush leaves.  Returns how many there are; the caller frees
+ * *tip with celd_free. */
+static size_t
+check_two_ends (Scene *s, int angle, double half, double width, double off, CeldTip **tip)
+{
+  double    dx = cos (angle * PI / 180), dy = sin (angle * PI / 180);
+  CeldPlace end[2] = { { SIDE / 2 - half * dx, SIDE / 2 - half * dy }, { SIDE / 2 + half * dx, SIDE / 2 + half * dy } };
+  size_t    n;
+
+  *tip = NULL;
+  scene_line (s, end[0], end[1], width);
+  n = find (s, tip);
+  NEAR (n, 2, 0);
+  for (size_t i = 0; i < n; i++)
+    {
+      const CeldTip *t = &(*tip)[i];
+      int            k = hypot (t->x - end[0].x, t->y - end[0].y) > half;
+      double         out = k ? 1 : -1;
+
+      NEAR (hypot (t->x - end[k].x, t->y - end[k].y), 0, off);
+      CHECK (out * (t->dx * dx + t->dy * dy) > cos (12 * PI / 180));
+      NEAR (hypot (t->dx, t->dy), 1, 1e-6);
+    }
+  return n;
+}
+
 static void
 a_line_has_two_ends (void)
 {
   for (int width = 2; width <= 10; width += 4)
     for (int angle = 0; angle < 180; angle += 15)
       {
-        double    dx = cos (angle * PI / 180), dy = sin (angle * PI / 180);
-        CeldPlace end[2] = { { SIDE / 2 - 50 * dx, SIDE / 2 - 50 * dy }, { SIDE / 2 + 50 * dx, SIDE / 2 + 50 * dy } };
-        CeldTip  *tip = NULL;
-        Scene     s;
-        size_t    n;
+        CeldTip *tip;
+        Scene    s;
 
         scene_open (SIDE, SIDE, &s);
-        scene_line (&s, end[0], end[1], width);
-        n = find (&s, &tip);
-        NEAR (n, 2, 0);
-        for (size_t i = 0; i < n; i++)
-          {
-            int    k = hypot (tip[i].x - end[0].x, tip[i].y - end[0].y) > 50;
-            double out = k ? 1 : -1;
-
-            NEAR (hypot (tip[i].x - end[k].x, tip[i].y - end[k].y), 0, 0.5 * width + 1.5);
-            CHECK (out * (tip[i].dx * dx + tip[i].dy * dy) > cos (12 * PI / 180));
-            NEAR (hypot (tip[i].dx, tip[i].dy), 1, 1e-6);
-          }
+        check_two_ends (&s, angle, 50, width, 0.5 * width + 1.5, &tip);
         celd_free (tip);
         scene_close (&s);
       }
@@ -77,23 +89,15 @@ a_hairline_among_broad_strokes_has_two_ends (void)
 {
   for (int angle = 0; angle < 180; angle += 10)
     {
-      double    dx = cos (angle * PI / 180), dy = sin (angle * PI / 180);
-      CeldPlace end[2] = { { SIDE / 2 - 22 * dx, SIDE / 2 - 22 * dy }, { SIDE / 2 + 22 * dx, SIDE / 2 + 22 * dy } };
-      CeldTip  *tip = NULL;
-      Scene     s;
-      size_t    n;
+      CeldTip *tip;
+      Scene    s;
+      size_t   n;
 
       scene_open (SIDE, SIDE, &s);
       draw_arc (&s, 60, 0, 2 * PI, 24);
-      scene_line (&s, end[0], end[1], 2.4);
-      n = find (&s, &tip);
-      NEAR (n, 2, 0);
+      n = check_two_ends (&s, angle, 22, 2.4, 2.5, &tip);
       for (size_t i = 0; i < n; i++)
         {
-          int k = hypot (tip[i].x - end[0].x, tip[i].y - end[0].y) > 22;
-
-          NEAR (hypot (tip[i].x - end[k].x, tip[i].y - end[k].y), 0, 2.5);
-          CHECK ((k ? 1 : -1) * (tip[i].dx * dx + tip[i].dy * dy) > cos (12 * PI / 180));
           NEAR (tip[i].width, 2.4, 1.2);
           CHECK (tip[i].stroke < 0.5 * celd_stroke_width (&s.ink));
         }
