@@ -106,22 +106,22 @@ a_hairline_among_broad_strokes_has_two_ends (void)
     }
 }
 
-/* The edges of a broad pen on rough paper: bristles and notches of a pixel or two. */
+/* Spikes at the edge of a broad pen, as of a dry brush: they get broader from their tips on, unlike lines. */
 static void
-ragged_edges_of_broad_strokes_have_none (void)
+spikes_of_broad_strokes_are_no_lines (void)
 {
-  uint32_t state = 1;
-  Scene    s;
+  Scene s;
 
   scene_open (SIDE, SIDE, &s);
-  draw_arc (&s, 50, 0, 2 * PI, 26);
-  for (int k = 0; k < 200; k++)
-    {
-      double a = check_random (&state, 6284) * 0.001, side = check_random (&state, 2) ? 37 : 63;
-      int    x = (int) (SIDE / 2 + side * cos (a)), y = (int) (SIDE / 2 + side * sin (a));
+  draw_arc (&s, 45, 0, 2 * PI, 26);
+  for (int k = 0; k < 12; k++)
+    for (double out = 0; out < 12; out += 0.5)
+      {
+        double    a = k * PI / 6 + 0.1;
+        CeldPlace at = { SIDE / 2 + (56 + out) * cos (a), SIDE / 2 + (56 + out) * sin (a) };
 
-      CELD_AT (&s.ink, x, y) = (float) check_random (&state, 2);
-    }
+        scene_line (&s, at, (CeldPlace) { at.x + 0.5 * cos (a), at.y + 0.5 * sin (a) }, 8 - 0.6 * out);
+      }
   NEAR (celd_stroke_width (&s.ink), 26, 3);
   NEAR (count (&s), 0, 0);
   scene_close (&s);
@@ -328,7 +328,7 @@ main (void)
 {
   RUN (a_line_has_two_ends);
   RUN (a_hairline_among_broad_strokes_has_two_ends);
-  RUN (ragged_edges_of_broad_strokes_have_none);
+  RUN (spikes_of_broad_strokes_are_no_lines);
   RUN (closed_lines_have_none);
   RUN (crossing_lines_have_four);
   RUN (both_ends_at_a_gap_are_found);
