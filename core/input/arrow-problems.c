@@ -5,7 +5,7 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "base/base.h"
-#include "input/input.h"
+#include "input/arrows.h"
 
 /* Is a pixel of a stroke seen?  *k goes on along the pixels of its colour, which are in reading order, too. */
 static bool

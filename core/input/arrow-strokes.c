@@ -7,7 +7,7 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
-#include "input/input.h"
+#include "input/arrows.h"
 
 #include <math.h>
 

@@ -10,7 +10,7 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "base/base.h"
-#include "input/input.h"
+#include "input/arrows.h"
 
 #include <math.h>
 

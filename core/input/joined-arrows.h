@@ -5,7 +5,7 @@
 #ifndef CELD_JOINED_ARROWS_H
 #define CELD_JOINED_ARROWS_H
 
-#include "input/input.h"
+#include "input/arrows.h"
 
 #include <math.h>
 

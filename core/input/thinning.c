@@ -13,7 +13,7 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "base/base.h"
-#include "input/input.h"
+#include "input/arrows.h"
 
 void
 celd_thin_neighbours (const uint8_t *on, size_t width, size_t p, bool around[8])
