@@ -18,9 +18,10 @@
 
 #define NEAR_END          6     /* stroke widths: up to here a line may turn sharply to meet another */
 #define FAR_END           12    /* stroke widths: from here on it must continue nearly straight */
-#define NEAR_COSINE       -0.17 /* cosines of the angle by which it may turn: 100, 60 and 20 degrees */
+#define NEAR_COSINE       -0.34 /* cosines of the angle by which it may turn: 110, 60 and 20 degrees */
 #define MIDDLE_COSINE      0.5
 #define FAR_COSINE        0.94
+#define COST_OF_TURN      2     /* a path that turns by 90 degrees costs so many times its length more (chosen) */
 #define OWN_OUTLINE       0.5   /* factor of the cost between two ends of one outline: closing it is preferred */
 #define BOW_COSINE        0.8   /* if both cosines are less, both ends must turn to the same side */
 #define ROUND_OFF         1e-6  /* margin by which quick tests are less strict than the exact one */
@@ -60,8 +61,8 @@ width_ratio (const CeldTip *p, const CeldTip *q)
   return p->width > 0 && q->width > 0 ? fmax (1, wide / narrow) : 1;
 }
 
-/* May two ends be joined?  The cost is their distance, more where the lines have to turn or are not equally wide, and
- * less if that closes an outline. */
+/* May two ends be joined?  The cost is their distance, more where one of the lines has to turn or they are not equally
+ * wide, and less if that closes an outline. */
 static bool
 may_join (const CeldTipPairs *s, const CeldTip *p, const CeldTip *q, double *cost)
 {
@@ -74,7 +75,7 @@ may_join (const CeldTipPairs *s, const CeldTip *p, const CeldTip *q, double *cos
   least = length <= NEAR_END * stroke ? NEAR_COSINE : length <= FAR_END * stroke ? MIDDLE_COSINE : FAR_COSINE;
   if (turn < least || other < least || (turn < BOW_COSINE && other < BOW_COSINE && side * other_side < 0))
     return false;
-  *cost = length * (2 - 0.5 * (turn + other)) * width_ratio (p, q) * (p->outline == q->outline ? OWN_OUTLINE : 1);
+  *cost = length * (1 + COST_OF_TURN * (1 - fmin (turn, other))) * width_ratio (p, q) * (p->outline == q->outline ? OWN_OUTLINE : 1);
   return true;
 }
 

@@ -83,6 +83,16 @@ void celd_line_end_set_corner (CeldCorner corner, CeldLineEnd *end);
 /* Moves the end, which is not a tip, to where a line from the other end reaches its ink, or to the nearest ink. */
 void celd_line_end_aim (const CeldPlane *ink, const CeldLineEnd *from, CeldLineEnd *end);
 
+/* ------------------------------------------------------------------ line-cuts.c */
+
+/* The corners of pixels along the outline of connected ink, ink on the right. */
+typedef struct { const CeldCorner *corner; size_t n; } CeldOutline;
+
+/* Finds the next place from *from on, 0 at first, where a broad line was cut off or rubbed out.  `stroke`:
+ * celd_stroke_width.  *tip becomes that end but for the number of its outline, *from where to go on.  False: there are no
+ * more. */
+bool celd_line_cut_next (const CeldPlane *ink, const CeldOutline *outline, int stroke, size_t *from, CeldTip *tip);
+
 /* ------------------------------------------------------------------ closures.c */
 
 #define CELD_CURVE_PLACES 65

@@ -5,6 +5,8 @@
  * places are then examined like the ends of closures (line-end-fit.c).  That is done at several scales, the finest first:
  * hairlines beside broad strokes have ends of their own.
  *
+ * Before that, corners where a broad line was cut off are sought (line-cuts.c).
+ *
  * Cost: one pass over the picture, and the length of the outlines; temporarily a byte a pixel.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
@@ -33,6 +35,9 @@
 #define MOST_WIDENING 1.3  /* times, plus a pixel (chosen): lines that meet at 10 degrees are 1.7 times as wide */
 #define FARTHEST_INK 3    /* pixels behind a corner of the outline, at an edge that is aslant (chosen) */
 #define SAME_END     0.75 /* line widths: ends closer than this are the same */
+#define BROAD_LINE   12   /* pixels: finer lines have no corners, but steps of pixels (chosen) */
+#define FIT_AGREES   0.96 /* cosine of the angle between a fit and the sides of a line that was cut off: 16 degrees */
+#define BESIDE_CUT   1.25 /* line widths: so near to such an end is no other one */
 #define END_CELL     16   /* pixels: side of the cells in which found ends are looked up */
 
 #define NO_TIP UINT32_MAX
@@ -60,6 +65,7 @@ typedef struct
   size_t           n_tips;
   uint32_t        *latest;      /* of each cell: the last tip found there, or NO_TIP */
   int              columns, rows;
+  size_t           first_cut, end_cuts;         /* of the tips: those at which the current outline was cut off */
   size_t           corner_capacity, tip_capacity, before_capacity;
 } LineEndSearch;
 
@@ -172,6 +178,16 @@ is_known (const LineEndSearch *s, CeldTip end, double width, double inexact)
         if (hypot (s->tip[i].x - end.x, s->tip[i].y - end.y) < (s->tip[i].stroke < s->stroke ? near : same) &&
             s->tip[i].dx * end.dx + s->tip[i].dy * end.dy > 0)
           return true;
+  return false;
+}
+
+/* Does the outline only turn round an end that was cut off? */
+static bool
+is_beside_cut (const LineEndSearch *s, CeldCorner corner)
+{
+  for (size_t k = s->first_cut; k < s->end_cuts; k++)
+    if (hypot (corner.x - s->tip[k].x, corner.y - s->tip[k].y) < BESIDE_CUT * s->tip[k].width)
+      return true;
   return false;
 }
 
@@ -310,9 +326,46 @@ search_outline (LineEndSearch *s, const Scale *scale)
               middle     = other;
             }
         }
-      if (is_inked (s, best, arm) && is_inked (s, best, arm / 2))
+      if (!is_beside_cut (s, s->corner[best]) && is_inked (s, best, arm) && is_inked (s, best, arm / 2))
         status = try_corner (s, best, scale, middle, least);
     }
+  return status;
+}
+
+/* A fit knows better than the last piece of both sides how a line bends, if it does not contradict. */
+static void
+refine_cut (LineEndSearch *s, CeldTip *end)
+{
+  CeldLineEnd *fit = &s->end[0];
+
+  celd_line_end_fit (s->ink, (CeldCorner) { (int32_t) floor (end->x), (int32_t) floor (end->y) }, fit);
+  if (!fit->tip || fit->dx * end->dx + fit->dy * end->dy < FIT_AGREES)
+    return;
+  end->x  = fit->at.x;
+  end->y  = fit->at.y;
+  end->dx = fit->dx;
+  end->dy = fit->dy;
+}
+
+/* Adds the ends of broad lines that were cut off, from lines as wide as the strokes down to details. */
+static CeldStatus
+search_cuts (LineEndSearch *s)
+{
+  CeldOutline outline = { s->corner, s->n };
+  CeldTip     end;
+  CeldStatus  status = CELD_OK;
+
+  s->first_cut = s->end_cuts = s->n_tips;
+  for (int stroke = s->stroke; stroke >= BROAD_LINE && status == CELD_OK; stroke /= 2)
+    for (size_t from = 0; status == CELD_OK && celd_line_cut_next (s->ink, &outline, stroke, &from, &end);)
+      {
+        end.outline = s->outline;
+        if (stroke == s->stroke)
+          refine_cut (s, &end);
+        if (!is_known (s, end, end.width, 0))
+          status = add_tip (s, end);
+      }
+  s->end_cuts = s->n_tips;
   return status;
 }
 
@@ -322,6 +375,8 @@ search_from (LineEndSearch *s, int x, int y)
   CeldStatus status = follow (s, x, y);
 
   s->outline++;
+  if (status == CELD_OK)
+    status = search_cuts (s);
   for (int k = 0; k < s->n_scales && status == CELD_OK; k++)
     status = search_outline (s, &s->scale[k]);
   return status;

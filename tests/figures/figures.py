@@ -224,6 +224,35 @@ def hairline_gaps():
     return f
 
 
+def rub_out(f, x, y, radius):
+    f.ink.ellipse([v * SCALE for v in (x - radius, y - radius, x + radius, y + radius)], 255)
+
+
+def stubs():
+    """A broad frame with handles at its corners; of two sides only short stubs are left beside the handles."""
+    f = Figure()
+    f.line(box(40, 40, 200, 160) + [(40, 40)], 14)
+    for x, y in box(40, 40, 200, 160):
+        f.ink.rectangle([v * SCALE for v in (x - 15, y - 15, x + 15, y + 15)], 0)
+    rub_out(f, 120, 40, 57)
+    rub_out(f, 40, 100, 36)
+    f.stroke('scribbles', [(150, 125), (180, 125)], A)
+    f.stroke('scribbles', [(5, 193), (235, 193)], B)
+    return f
+
+
+def ring_round_bar():
+    """A broad ring with a wide gap, and in it a bar that ends nearer to one end of the ring than the other one is."""
+    f = Figure()
+    around = [math.radians(i) for i in range(0, 361, 2)]
+    f.line([(120 + 72 * math.cos(a), 100 + 72 * math.sin(a)) for a in around], 24)
+    f.ink.rectangle([v * SCALE for v in (105, 88, 180, 112)], 0)
+    rub_out(f, 55, 62, 44)
+    f.stroke('scribbles', [(95, 140), (145, 140)], A)
+    f.stroke('scribbles', [(10, 190), (230, 190)], B)
+    return f
+
+
 def severed():
     """A stroke that runs over a contour and ends behind a later stroke of another colour, in a narrow part."""
     f = Figure()
@@ -429,9 +458,10 @@ def soft_on_white():
 
 
 FIGURES = [two_arrows, thick, contours, two_characters, frame, limbs, cycle, broken, pinched_little, pinched_much,
-           gap_beside_bay, hairline_gaps, severed, close_up, nearly_touches_frame, forgotten, cut_off, unpainted_page,
-           stopped_near, stopped_farther, stopped_far, open_bay, vein, notch, hairline, stroke_on_contour,
-           pencil_on_smooth_paper, pencil_on_rough_paper, cover_on_thick, cover_on_thicker, soft_on_white]
+           gap_beside_bay, hairline_gaps, stubs, ring_round_bar, severed, close_up, nearly_touches_frame, forgotten,
+           cut_off, unpainted_page, stopped_near, stopped_farther, stopped_far, open_bay, vein, notch, hairline,
+           stroke_on_contour, pencil_on_smooth_paper, pencil_on_rough_paper, cover_on_thick, cover_on_thicker,
+           soft_on_white]
 
 
 if __name__ == '__main__':

@@ -163,6 +163,18 @@ def hairline_gaps(run):
     yield 'its gaps are closed', r.colour(140, 150) == r.colour(205, 140) == figures.C
 
 
+def stubs(run):
+    r = run()
+    yield 'the frame is closed between the stubs', r.colour(120, 52) == r.colour(54, 100) == figures.A
+    yield 'the page is outside', r.colour(120, 28) == r.colour(28, 100) == figures.B
+
+
+def ring_round_bar(run):
+    r = run()
+    yield 'the ring is one room, above the bar and below', r.colour(150, 65) == r.colour(100, 65) == figures.A
+    yield 'the page is outside', r.colour(50, 50) == figures.B
+
+
 def severed(run):
     r = run()
     yield 'what the stroke ran into keeps its colour', r.colour(190, 60) == r.colour(190, 140) == figures.B
@@ -248,9 +260,9 @@ def cover(run):
 
 
 OUTCOMES = [two_arrows, thick, contours, two_characters, frame, limbs, cycle, broken, pinched, pinched,
-            gap_beside_bay, hairline_gaps, severed, close_up, nearly_touches_frame, forgotten, cut_off, unpainted_page,
-            stopped_short, stopped_short, stopped_short, no_room, no_room, no_room, hairline, stroke_on_contour,
-            hairline, hairline, cover, cover, soft_on_white]
+            gap_beside_bay, hairline_gaps, stubs, ring_round_bar, severed, close_up, nearly_touches_frame,
+            forgotten, cut_off, unpainted_page, stopped_short, stopped_short, stopped_short, no_room, no_room,
+            no_room, hairline, stroke_on_contour, hairline, hairline, cover, cover, soft_on_white]
 
 
 def main():

@@ -217,6 +217,37 @@ ends_that_were_rubbed_out_are_found (void)
       }
 }
 
+/* All that is left of a line beside a bar is a stub shorter than it is wide, whose end is hollow: it still shows where the
+ * line went. */
+static void
+a_stub_has_the_direction_of_its_line (void)
+{
+  for (int angle = 0; angle < 360; angle += 10)
+    {
+      double   dx = cos (angle * PI / 180), dy = sin (angle * PI / 180), width = 22, out = 27, radius = 30;
+      CeldTip *tip = NULL;
+      Scene    s;
+      size_t   n, found = 0;
+
+      scene_open (SIDE, SIDE, &s);
+      scene_line (&s, (CeldPlace) { SIDE / 2, SIDE / 2 }, (CeldPlace) { SIDE / 2 + 50 * dx, SIDE / 2 + 50 * dy }, width);
+      rub_out (&s, SIDE / 2 + (out + radius) * dx, SIDE / 2 + (out + radius) * dy, radius);
+      scene_line (&s, (CeldPlace) { SIDE / 2 + 50 * dy, SIDE / 2 - 50 * dx },
+                  (CeldPlace) { SIDE / 2 - 50 * dy, SIDE / 2 + 50 * dx }, width);
+      n = find (&s, &tip);
+      for (size_t i = 0; i < n; i++)
+        if (hypot (tip[i].x - SIDE / 2 - out * dx, tip[i].y - SIDE / 2 - out * dy) < 4)
+          {
+            CHECK (tip[i].dx * dx + tip[i].dy * dy > cos (8 * PI / 180));
+            NEAR (tip[i].width, width, 2);
+            found++;
+          }
+      NEAR (found, 1, 0);
+      celd_free (tip);
+      scene_close (&s);
+    }
+}
+
 static void
 blots_and_areas_have_none (void)
 {
@@ -333,6 +364,7 @@ main (void)
   RUN (crossing_lines_have_four);
   RUN (both_ends_at_a_gap_are_found);
   RUN (ends_that_were_rubbed_out_are_found);
+  RUN (a_stub_has_the_direction_of_its_line);
   RUN (blots_and_areas_have_none);
   RUN (an_outlined_limb_is_no_line);
   RUN (ends_have_the_width_of_their_line);
