@@ -21,7 +21,7 @@
 #define NEAR_COSINE       -0.34 /* cosines of the angle by which it may turn: 110, 60 and 20 degrees */
 #define MIDDLE_COSINE      0.5
 #define FAR_COSINE        0.94
-#define COST_OF_TURN      2     /* a path that turns by 90 degrees costs so many times its length more (chosen) */
+#define SHARP_BEND_COST   2     /* times the square of 1 - cosine of the sharper turn, added to the cost (chosen) */
 #define OWN_OUTLINE       0.5   /* factor of the cost between two ends of one outline: closing it is preferred */
 #define BOW_COSINE        0.8   /* if both cosines are less, both ends must turn to the same side */
 #define ROUND_OFF         1e-6  /* margin by which quick tests are less strict than the exact one */
@@ -68,14 +68,15 @@ may_join (const CeldTipPairs *s, const CeldTip *p, const CeldTip *q, double *cos
 {
   double x = q->x - p->x, y = q->y - p->y, length = hypot (x, y), stroke = celd_finer_stroke (p, q), least;
   double turn = (x * p->dx + y * p->dy) / length, other = -(x * q->dx + y * q->dy) / length;
-  double side = x * p->dy - y * p->dx, other_side = x * q->dy - y * q->dx;
+  double side = x * p->dy - y * p->dx, other_side = x * q->dy - y * q->dx, bend = 1 - fmin (turn, other);
 
   if (length < 1 || length <= s->from || length > s->most)
     return false;
   least = length <= NEAR_END * stroke ? NEAR_COSINE : length <= FAR_END * stroke ? MIDDLE_COSINE : FAR_COSINE;
   if (turn < least || other < least || (turn < BOW_COSINE && other < BOW_COSINE && side * other_side < 0))
     return false;
-  *cost = length * (1 + COST_OF_TURN * (1 - fmin (turn, other))) * width_ratio (p, q) * (p->outline == q->outline ? OWN_OUTLINE : 1);
+  *cost = length * (1 + bend + SHARP_BEND_COST * bend * bend) * width_ratio (p, q) *
+          (p->outline == q->outline ? OWN_OUTLINE : 1);
   return true;
 }
 

@@ -19,7 +19,7 @@ cost_of (const CeldTip *p, const CeldTip *q)
   double turn = (x * p->dx + y * p->dy) / length, other = -(x * q->dx + y * q->dy) / length;
   double least = length <= 6 * stroke ? -0.34 : length <= 12 * stroke ? 0.5 : 0.94;
   bool   bow   = turn < 0.8 && other < 0.8;
-  double ratio = 1;
+  double ratio = 1, bend = 1 - fmin (turn, other);
 
   if (length < 1 || turn < least || other < least)
     return -1;
@@ -29,7 +29,7 @@ cost_of (const CeldTip *p, const CeldTip *q)
     ratio = p->width / (q->width + 1);
   else if (p->width && q->width && q->width > p->width + 1)
     ratio = q->width / (p->width + 1);
-  return length * (1 + 2 * (1 - fmin (turn, other))) * ratio * (p->outline == q->outline ? 0.5 : 1);
+  return length * (1 + bend + 2 * bend * bend) * ratio * (p->outline == q->outline ? 0.5 : 1);
 }
 
 /* The cheapest pair that is free and has not been given out; false: there is none. */
