@@ -19,7 +19,7 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
-#include "image/image.h"
+#include "image/coloured-steps.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -217,7 +217,7 @@ count_tones (Lines *l, int faintest)
   for (int y = 0; y < l->contrast.height; y += TONE_ROWS)
     for (int left = 0; left < l->contrast.width; left += CELD_PIECE)
       {
-        int right = left + CELD_PIECE < l->contrast.width ? left + CELD_PIECE : l->contrast.width;
+        int right = left + celd_piece_at (left, l->contrast.width);
 
         if (celd_any_byte_reaches (&CELD_AT (&l->contrast, left, y), (size_t) (right - left), faintest)) /* few do */
           for (int x = left; x < right; x++)
@@ -282,7 +282,7 @@ find_cores (Lines *l, int radius, int faintest)
   for (int y = 0; y < l->level.height; y++)
     for (int left = 0; left < l->level.width; left += CELD_PIECE)
       {
-        int right = left + CELD_PIECE < l->level.width ? left + CELD_PIECE : l->level.width;
+        int right = left + celd_piece_at (left, l->level.width);
 
         if (celd_any_byte_reaches (&CELD_AT (&l->contrast, left, y), (size_t) (right - left), faintest)) /* few do */
           for (int x = left; x < right; x++)
@@ -370,7 +370,7 @@ write_lines (Lines *l, CeldDrawing *drawing)
     {
       write_strengths (&CELD_AT (&l->level, 0, y), width, &CELD_AT (&drawing->luma, 0, y));
       for (int x = 0; x < width; x += CELD_PIECE)
-        write_thick (l, x, y, width - x < CELD_PIECE ? width - x : CELD_PIECE, &CELD_AT (&drawing->luma, x, y));
+        write_thick (l, x, y, celd_piece_at (x, width), &CELD_AT (&drawing->luma, x, y));
       if (drawing->alpha.data)
         for (int x = 0; x < width; x++)
           CELD_AT (&drawing->alpha, x, y) = 1;

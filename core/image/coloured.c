@@ -5,7 +5,7 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
-#include "image/image.h"
+#include "image/coloured-steps.h"
 
 #include <stdlib.h>
 

@@ -11,7 +11,7 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
-#include "image/image.h"
+#include "image/coloured-steps.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -107,7 +107,7 @@ measure_steps (const CeldMask channel[3], const CeldMask *strength, const CeldPl
         }
       for (int left = 1, n; left < width - 1; left += n)
         {
-          n = width - 1 - left < CELD_PIECE ? width - 1 - left : CELD_PIECE;
+          n = celd_piece_at (left, width - 1);
           if (!celd_any_byte_reaches (&CELD_AT (step, left, y), (size_t) n, least)) /* few do */
             memset (&CELD_AT (step, left, y), 0, (size_t) n);
           else
@@ -141,7 +141,7 @@ celd_draw_fill_edges (const CeldMask channel[3], const CeldMask *strength, int f
   for (int y = 0; y < luma->height; y++)
     for (int left = 0, n; left < luma->width; left += n)
       {
-        n = luma->width - left < CELD_PIECE ? luma->width - left : CELD_PIECE;
+        n = celd_piece_at (left, luma->width);
         if (celd_any_byte_reaches (&CELD_AT (step, left, y), (size_t) n, 1)) /* few do */
           for (int x = left; x < left + n; x++)
             if (CELD_AT (step, x, y) && is_largest (step, x, y))

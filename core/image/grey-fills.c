@@ -9,7 +9,7 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
-#include "image/image.h"
+#include "image/coloured-steps.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -11,33 +11,7 @@
 
 #define CELD_SPECK 16 /* pixels: smaller regions do not stand on their own (chosen) */
 
-#define CELD_RUN 256 /* pixels of a row that are looked at together; chosen */
-
-#define CELD_PIECE 32 /* pixels that are passed over together where there are no lines, as in most places; chosen */
-
-/* ------------------------------------------------------------------ paper.c: the kind of drawing, and its values */
-
-/* The mode to use for a drawing: never CELD_INK_AUTO, and CELD_INK_ALPHA only if the drawing has transparency. */
-CeldInkMode celd_ink_mode (const CeldDrawing *drawing, CeldInkMode mode);
-
-/* Whether a drawing is lines on a transparent layer. */
-bool celd_is_line_layer (const CeldDrawing *drawing);
-
-/* Brightness of each pixel as if drawn dark on white, 1 = white paper, 0 = full ink.  `mode` as returned by
- * celd_ink_mode; `value` has the drawing's size. */
-void celd_ink_values (const CeldDrawing *drawing, CeldInkMode mode, CeldPlane *value);
-
-/* paper-levels.c: the brightness of the paper around each pixel, > 0; `paper` has the size of `value`. */
-CeldStatus celd_paper_levels (const CeldPlane *value, CeldPlane *paper);
-
-/* paper-levels.c: replaces each value by its contrast against that paper, 1 - value / paper or 0 where it is lighter.
- * After a failure the values are as they were. */
-CeldStatus celd_paper_contrast (CeldPlane *value);
-
-/* ------------------------------------------------------------------ ink-noise.c */
-
-#define CELD_INK_BINS  256 /* of a histogram of values in [0,1]; chosen */
-#define CELD_INK_BANKS 4   /* histograms filled in turn, so that an addition need not wait for the one before; chosen */
+/* ------------------------------------------------------------------ the lesser and the larger of two values */
 
 /* fminf and fmaxf without a call; not for NaN. */
 static inline float
@@ -52,47 +26,17 @@ celd_most (float a, float b)
   return a > b ? a : b;
 }
 
-/* `contrast` planes hold the contrast of each pixel against the paper, 0 .. 1. */
+/* ------------------------------------------------------------------ paper.c: the kind of drawing, and its values */
 
-/* How many rows lie between those by which noise and echo are measured, the first of which is row rows_apart / 2; 1 in
- * a small picture. */
-int celd_ink_rows_apart (int width, int height);
+/* The mode to use for a drawing: never CELD_INK_AUTO, and CELD_INK_ALPHA only if the drawing has transparency. */
+CeldInkMode celd_ink_mode (const CeldDrawing *drawing, CeldInkMode mode);
 
-/* The standard deviation of the paper's grain at the scale of `step` pixels, from the median second difference along
- * rows where there is no ink. */
-float celd_ink_noise (const CeldPlane *contrast, int step);
+/* Brightness of each pixel as if drawn dark on white, 1 = white paper, 0 = full ink.  `mode` as returned by
+ * celd_ink_mode; `value` has the drawing's size. */
+void celd_ink_values (const CeldDrawing *drawing, CeldInkMode mode, CeldPlane *value);
 
-/* The strength of compression artefacts: the ripple that one of ten paper pixels near dark ink exceeds; 0 in a clean
- * picture, or if there are too few such pixels.  `around` holds the largest contrast near each pixel, 0 .. 255, `dark`
- * the contrast of dark strokes. */
-float celd_ink_echo (const CeldPlane *contrast, const CeldMask *around, float dark);
-
-/* One pass of the binomial filter (1 2 1)/4 in both directions, in place; `spare`, of the same size, is overwritten. */
-void celd_ink_smooth (CeldPlane *plane, CeldPlane *spare);
-
-/* ------------------------------------------------------------------ ink-levels.c */
-
-/* Whether a grey pixel of a clean drawing shows how dark its stroke is: inside a grey stroke, or on a line thinner than
- * a pixel.  `dark` is the contrast of dark strokes. */
-bool celd_ink_shows_level (const CeldPlane *contrast, int x, int y, float dark);
-
-/* ------------------------------------------------------------------ ink-lines.c */
-
-/* Where there is a line or an edge in `contrast`, replaces the values of `smooth`, which has the same size and holds it
- * after two passes of celd_ink_smooth, by means along the line.  `noise` is the standard deviation of the grain.
- * CELD_NO_MEMORY is the only failure; then `smooth` is as it was. */
-CeldStatus celd_ink_smooth_lines (const CeldPlane *contrast, float noise, CeldPlane *smooth);
-
-/* ------------------------------------------------------------------ ink-bands.c */
-
-/* Makes paper of long bands of grey ink that are lighter than the lines on both sides.  `between`, a tight mask of the
- * same size, is overwritten.  CELD_NO_MEMORY is the only failure; then `ink` is as it was. */
-CeldStatus celd_ink_part_lines (CeldPlane *ink, CeldMask *between);
-
-/* ------------------------------------------------------------------ ink-grain.c */
-
-/* Fills small holes in the ink of a noisy drawing.  `known`, a tight mask of the same size, is overwritten. */
-void celd_ink_fill_grain (CeldPlane *ink, CeldMask *known);
+/* paper-levels.c: the brightness of the paper around each pixel, > 0; `paper` has the size of `value`. */
+CeldStatus celd_paper_levels (const CeldPlane *value, CeldPlane *paper);
 
 /* ------------------------------------------------------------------ ink and paper */
 
@@ -203,79 +147,6 @@ void celd_dilate_bytes (CeldMask *mask, int radius, void *work);
 /* Dilation and then erosion; `closed` must not alias `mask`. */
 void celd_close_bytes  (const CeldMask *mask, int radius, void *work, CeldMask *closed);
 void celd_invert_bytes (CeldMask *mask);
-
-/* ------------------------------------------------------------------ coloured drawings */
-
-/* line-contrast.c: whether one of n bytes is as large as this. */
-bool celd_any_byte_reaches (const uint8_t *value, size_t n, int least);
-
-/* line-contrast.c: raises contrasts, 0 .. 255, to those of values against their closing, as far as it is larger. */
-void celd_raise_contrast (const uint8_t *value, const uint8_t *closed, size_t n, uint8_t *contrast);
-
-/* line-contrast.c: replaces the contrast of the core of the line at each pixel by the strength of the line there, 0 ..
- * 255.  Where there is no core (0), pale contrast is what narrow fills leave along their ends, not a pale line. */
-void celd_line_strengths (const uint8_t *contrast, int faintest, size_t n, uint8_t *level);
-
-#define CELD_DARKEST_FILL 64  /* of 255: contrast against anything darker is against this; chosen */
-#define CELD_MIDDLE_FILL  128 /* of 255: of a fill that is lighter than lines, which grain hides more; chosen */
-
-/* coloured.c: whether red, green and blue of an opaque drawing have fills of several hues. */
-bool celd_is_coloured (const CeldMask channel[3]);
-
-/* grey-fills.c: whether they have flat fills in greys or pale colours, beside paper and what is darkest and lightest. */
-bool celd_has_grey_fills (const CeldMask channel[3]);
-
-/* sprite-lines.c: if a picture is pixel art in a few exact colours, with lines, sets `lines` to 255 at them and to 0
- * elsewhere; returns whether it is.  With `only_coloured` it has fills with hues as well.  `work` is for radius 2,
- * `spare` is overwritten, and so is `lines`; all have one size. */
-bool celd_sprite_lines (const CeldMask channel[3], bool only_coloured, void *work, CeldMask *spare, CeldMask *lines);
-
-/* line-width.c: the radius of the window by which the lines of a drawing are found, in the closing of its channels.
- * If lines are lighter than fills, inverts the channels.  Sets `lightness` to that of the channels, inverted as well.
- * `broadest` limits the radius; `work` is for twice that, `closed` and `clear` are overwritten; all have one size. */
-CeldStatus celd_line_window (CeldMask channel[3], int broadest, const CeldHost *host, void *work, CeldMask *closed,
-                             CeldMask *clear, CeldMask *lightness, int *radius);
-
-/* narrow-fills.c: sets `contrast` to 0 where a fill is narrow between lines: lighter than its opening by `radius`, by a
- * contrast of `faintest` at least.  `lightness`, `light` and `fill` are overwritten; `work` is for this radius. */
-void celd_clear_narrow_fills (CeldMask *lightness, int radius, int faintest, void *work, CeldMask *light, CeldMask *fill,
-                              CeldMask *contrast);
-
-#define CELD_LINE_TONES 16 /* per channel; chosen */
-
-typedef struct
-{
-  uint32_t count[CELD_LINE_TONES * CELD_LINE_TONES * CELD_LINE_TONES]; /* of cores, by red, green and blue */
-  uint32_t cores;
-} CeldLineTones;
-
-/* line-tones.c: counts the pixel with this index, which is the core of a line; adds to each count those of the 26
- * colours around; whether enough cores have the colour of a pixel.  All counts are 0 at first. */
-void celd_line_tone_count (CeldLineTones *tones, const CeldMask channel[3], size_t pixel);
-void celd_line_tones_blur (CeldLineTones *tones);
-bool celd_is_line_tone (const CeldLineTones *tones, const CeldMask channel[3], size_t pixel);
-
-/* line-tones.c: sets `tone` to the colour that most cores have, before counts are blurred; returns whether there is
- * one.  Then the distance of n pixels from a tone: the largest of the channels', less that of colours of one tone. */
-bool celd_main_line_tone (const CeldLineTones *tones, uint8_t tone[3]);
-void celd_tone_distance (const CeldMask channel[3], const uint8_t tone[3], size_t n, uint8_t *distance);
-
-/* thick-lines.c: sets `thick` to 1 where some channel, or the distance from the colour of lines (NULL: they have
- * several), has at least half of the contrast of black against its closing by `radius`, and no channel is lighter than its
- * opening, by a contrast of `faintest`, 1 .. 254; else to 0.  `work` is for this radius, `spare` is overwritten; all have
- * one size. */
-CeldStatus celd_thick_lines (const CeldMask channel[3], const CeldMask *distance, int radius, int faintest,
-                             const CeldHost *host, void *work, CeldMask *spare, CeldMask *thick);
-
-/* solid-areas.c: of `thick`, which is 1 in thick strokes and else 0, sets what has not the tone of lines to 0, and what
- * hangs on areas in its colour that are no lines.  `strength` is that of thin lines. */
-void celd_leave_solid_areas (const CeldMask channel[3], const CeldLineTones *tones, const CeldMask *strength,
-                             CeldMask *thick);
-
-/* fill-edges.c: sets `luma`, which has the lines, to 0 along edges between fills that meet without a line.  `strength`
- * is 0 where there is no line, `faintest` is the least contrast of one; `step` is overwritten; all have one size. */
-void celd_draw_fill_edges (const CeldMask channel[3], const CeldMask *strength, int faintest, CeldMask *step,
-                           CeldPlane *luma);
 
 /* ------------------------------------------------------------------ borders between pixels */
 

@@ -8,7 +8,7 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
-#include "image/image.h"
+#include "image/ink-steps.h"
 
 #include <string.h>
 
@@ -64,7 +64,7 @@ mark_row (const CeldPlane *ink, int y, uint8_t *between)
 
   for (int left = 0; left < ink->width; left += CELD_PIECE)
     {
-      int end = left + CELD_PIECE < ink->width ? left + CELD_PIECE : ink->width;
+      int end = left + celd_piece_at (left, ink->width);
 
       if (any_ink (&CELD_AT (ink, left, y), end - left)) /* few have */
         for (int x = left; x < end; x++)

@@ -6,7 +6,7 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
-#include "image/image.h"
+#include "image/ink-steps.h"
 
 #include <string.h>
 

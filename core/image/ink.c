@@ -15,7 +15,7 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
-#include "image/image.h"
+#include "image/ink-steps.h"
 
 #include <math.h>
 #include <string.h>
@@ -62,13 +62,6 @@ any_reaches (const float *value, int n, float least)
   return any;
 }
 
-/* How many of the pixels of a row are looked at together from x on. */
-static int
-piece_at (int x, int width)
-{
-  return width - x < CELD_PIECE ? width - x : CELD_PIECE;
-}
-
 /* The contrast that 2 % of the inked pixels exceed, exact if these have one value; 1 if there is no ink. */
 static float
 dark_level (const InkWork *w)
@@ -82,7 +75,7 @@ dark_level (const InkWork *w)
       {
         const float *contrast = &CELD_AT (&w->contrast, left, y);
 
-        n = piece_at (left, w->contrast.width);
+        n = celd_piece_at (left, w->contrast.width);
         if (any_reaches (contrast, n, w->faintest)) /* few do */
           for (int k = 0; k < n; k++)
             if (contrast[k] >= w->faintest)
@@ -275,7 +268,7 @@ find_levels (InkWork *w)
   for (int y = 0; y < w->level.height; y++)
     for (int left = 0, n; left < w->level.width; left += n)
       {
-        n = piece_at (left, w->level.width);
+        n = celd_piece_at (left, w->level.width);
         if (any_reaches (&CELD_AT (&w->contrast, left, y), n, w->faintest)) /* few do */
           pale = find_levels_of_piece (w, left, y, n) || pale;
         else
@@ -356,7 +349,7 @@ write_pale (const InkWork *w, int left, int y, int n, float *ink)
       int            x = left + i;
       const uint8_t *level = &CELD_AT (&w->level, x, y);
 
-      m = piece_at (i, n);
+      m = celd_piece_at (i, n);
       if (memcmp (level, unknown, (size_t) m)) /* most are */
         darken_pale (&CELD_AT (&w->contrast, x, y), &CELD_AT (&w->area, x, y), level, full, m, ink + i);
     }

@@ -5,7 +5,7 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
-#include "image/image.h"
+#include "image/coloured-steps.h"
 
 #define TONES        CELD_LINE_TONES
 #define TONE_WIDTH   (256 / TONES)

@@ -7,7 +7,7 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
-#include "image/image.h"
+#include "image/coloured-steps.h"
 
 #include <stdlib.h>
 
@@ -100,7 +100,7 @@ mark_areas (const Strokes *s, bool all, bool backwards)
       {
         int y = backwards ? height - 1 - row : row, left;
 
-        n = width - first < CELD_PIECE ? width - first : CELD_PIECE;
+        n = celd_piece_at (first, width);
         left = backwards ? width - first - n : first;
         if (celd_any_byte_reaches (&CELD_AT (s->thick, left, y), (size_t) n, STROKE)) /* few do */
           for (int i = 0; i < n; i++)

@@ -4,7 +4,7 @@
  */
 #include "check.h"
 #include "celdepth.h"
-#include "image/image.h"
+#include "image/ink-steps.h"
 
 #include <math.h>
 #include <string.h>

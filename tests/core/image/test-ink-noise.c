@@ -3,7 +3,7 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "check.h"
-#include "image/image.h"
+#include "image/ink-steps.h"
 
 enum { SIDE = 100, LINE = 50 };
 
