@@ -18,10 +18,8 @@
 #include "segment/task.h"
 
 #define THICKEST_LINE 2 /* stroke width, in pixels: thicker lines leave their regions in one piece (chosen) */
-#define MOST_MERGED   6 /* pixels over which two lines are one, at most (chosen, as the next two) */
+#define MOST_MERGED   6 /* pixels over which two lines are one, at most (chosen, as the next one) */
 #define WIDEST        5 /* pixels: their width there, at most */
-#define WIDEST_PART   2 /* pixels: the width of either line where they part, at most, or 1 if they are one over a single
-                         * pixel: if they are wider, the place is rather where other lines meet */
 
 /* Coordinates about the pixel (x,y): i along (dx,dy), and j to the side, along (-dy,dx). */
 typedef struct { int x, y, dx, dy; } PixelView;
@@ -102,19 +100,6 @@ is_tip (const PinchSearch *s, int i, int j)
   return is_paper (s, i, j) && is_ink (s, i, j - 1) && is_ink (s, i, j + 1);
 }
 
-/* Are both lines beside that paper at most `most` pixels wide? */
-static bool
-is_thin (const PinchSearch *s, int i, int j, int most)
-{
-  int left = 1, right = 1;
-
-  while (left <= most && is_ink (s, i, j - left))
-    left++;
-  while (right <= most && is_ink (s, i, j + right))
-    right++;
-  return left <= most + 1 && right <= most + 1 && !is_ink (s, i, j - left) && !is_ink (s, i, j + right);
-}
-
 /* From the ink at i - 1, *left .. *right, goes on to the ink at i that touches it.  False if that is no narrow line
  * with paper on both sides. */
 static bool
@@ -149,12 +134,7 @@ try_ahead (PinchSearch *s)
   for (int i = 1; i <= MOST_MERGED && follow_line (s, i, &left, &right); i++)
     for (int j = left; j <= right; j++)
       if (is_tip (s, i + 1, j))
-        {
-          int  most = i < WIDEST_PART ? i : WIDEST_PART;
-          bool thin = is_thin (s, 0, 0, most) && is_thin (s, i + 1, j, most);
-
-          return add_pinch (s, i + 1, j, thin ? CELD_PINCH_MERGED : CELD_PINCH_DOUBTFUL);
-        }
+        return add_pinch (s, i + 1, j, CELD_PINCH_MERGED);
   return CELD_OK;
 }
 

@@ -182,13 +182,12 @@ bool       celd_regions_are_separate (const CeldSegmentTask *task, const CeldRel
 
 /* ------------------------------------------------------------------ pinches.c: parts of one region */
 
-/* Two basins that are probably one region, and how weak the ink between them is as a barrier: as 4096, 1024 or 8 pixels
- * of the thinnest line (chosen: of 45 drawings' pinches nearly all, 96 of 100 and two thirds were such). */
+/* Two basins that are probably one region, and how weak the ink between them is as a barrier: as 4096 or 1024 pixels of
+ * the thinnest line (chosen). */
 typedef struct { uint32_t a, b; int64_t weakness; } CeldPinch;
 
 #define CELD_PINCH_CORNER   ((int64_t) 1 << 22) /* they touch at a corner */
 #define CELD_PINCH_MERGED   ((int64_t) 1 << 20) /* the lines between them are one over some pixels */
-#define CELD_PINCH_DOUBTFUL ((int64_t) 1 << 13) /* they are, but they are wide where they part */
 
 /* Lists the pinches of the basins with wanted[basin], in drawings with lines up to two pixels wide; others have none.
  * A pair of basins may be listed several times.  To be freed with celd_free; CELD_NO_MEMORY is the only failure. */
