@@ -164,18 +164,17 @@ latest_at (const LineEndSearch *s, CeldTip tip)
   return &s->latest[row * (size_t) s->columns + column];
 }
 
-/* Has this end been found at another scale?  The end on the other side of a narrow gap has the opposite direction.  That
- * of a finer line may be `inexact` pixels away. */
+/* Has this end been found at another scale?  The end on the other side of a narrow gap has the opposite direction. */
 static bool
-is_known (const LineEndSearch *s, CeldTip end, double width, double inexact)
+is_known (const LineEndSearch *s, CeldTip end, double width)
 {
-  double same = SAME_END * width + 1, near = fmax (same, inexact);
-  int    right = cell_along (end.x + near, s->columns), bottom = cell_along (end.y + near, s->rows);
+  double same = SAME_END * width + 1;
+  int    right = cell_along (end.x + same, s->columns), bottom = cell_along (end.y + same, s->rows);
 
-  for (int row = cell_along (end.y - near, s->rows); row <= bottom; row++)
-    for (int column = cell_along (end.x - near, s->columns); column <= right; column++)
+  for (int row = cell_along (end.y - same, s->rows); row <= bottom; row++)
+    for (int column = cell_along (end.x - same, s->columns); column <= right; column++)
       for (uint32_t i = s->latest[(size_t) row * (size_t) s->columns + (size_t) column]; i != NO_TIP; i = s->before[i])
-        if (hypot (s->tip[i].x - end.x, s->tip[i].y - end.y) < (s->tip[i].stroke < s->stroke ? near : same) &&
+        if (hypot (s->tip[i].x - end.x, s->tip[i].y - end.y) < same &&
             s->tip[i].dx * end.dx + s->tip[i].dy * end.dy > 0)
           return true;
   return false;
@@ -289,7 +288,7 @@ try_corner (LineEndSearch *s, size_t i, const Scale *scale, CeldPlace middle, do
   end.y  = fit->tip ? fit->at.y : corner.y;
   end.dx = fit->tip ? fit->dx : (corner.x - middle.x) / back;
   end.dy = fit->tip ? fit->dy : (corner.y - middle.y) / back;
-  if ((!fit->tip && sharp > CERTAIN_TIP) || is_known (s, end, estimated, (double) scale->arm / ARM_STEPS))
+  if ((!fit->tip && sharp > CERTAIN_TIP) || is_known (s, end, estimated))
     return CELD_OK;
   return add_tip (s, end);
 }
@@ -362,7 +361,7 @@ search_cuts (LineEndSearch *s)
         end.outline = s->outline;
         if (stroke == s->stroke)
           refine_cut (s, &end);
-        if (!is_known (s, end, end.width, 0))
+        if (!is_known (s, end, end.width))
           status = add_tip (s, end);
       }
   s->end_cuts = s->n_tips;
