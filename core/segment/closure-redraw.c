@@ -15,7 +15,6 @@
 
 #include <stdlib.h>
 
-#define STROKE_PER_EDGE 12  /* pixels of stroke width for each pixel of antialiased edge (chosen) */
 #define TIP_MARGIN      1.5 /* pixels, plus half a line: so near its ends the new boundary may cross ink (chosen) */
 
 /* ------------------------------------------------------------------ does anything stand in the way? */
@@ -26,31 +25,15 @@ is_inside (const CeldRedrawing *r, int x, int y)
   return x >= 0 && y >= 0 && x < r->labels->width && y < r->labels->height;
 }
 
-/* Is ink so near that this pixel may be on its antialiased edge?  Thick lines are seldom as sharp as thin ones. */
+/* Is ink so near that this pixel may be on its antialiased edge? */
 static bool
 near_ink (const CeldRedrawing *r, int x, int y)
 {
-  int radius = 1 + r->task->basins->stroke / STROKE_PER_EDGE;
-
-  for (int v = y - radius; v <= y + radius; v++)
-    for (int u = x - radius; u <= x + radius; u++)
+  for (int v = y - 1; v <= y + 1; v++)
+    for (int u = x - 1; u <= x + 1; u++)
       if (is_inside (r, u, v) && !celd_is_paper (CELD_AT (r->task->ink, u, v)))
         return true;
   return false;
-}
-
-static double
-distance_to_chain (const CeldRedrawing *r, const CeldChain *chain, CeldPlace place)
-{
-  double least = INFINITY;
-
-  for (size_t i = 0; i < chain->n; i++)
-    {
-      double dx = r->chains->corner[chain->first + i].x - place.x, dy = r->chains->corner[chain->first + i].y - place.y;
-
-      least = fmin (least, dx * dx + dy * dy);
-    }
-  return sqrt (least);
 }
 
 static double
@@ -88,8 +71,6 @@ is_allowed (const CeldRedrawing *r, const CeldChain *chain, const CeldClosureCur
 static bool
 is_free (const CeldRedrawing *r, const CeldChain *chain, const CeldClosureCurve *curve)
 {
-  double most = length_of (curve) / 2 + line_width (r) + 1;
-
   for (size_t i = 0; i + 1 < curve->n; i++)
     {
       CeldPlace p = curve->place[i], q = curve->place[i + 1];
@@ -97,10 +78,9 @@ is_free (const CeldRedrawing *r, const CeldChain *chain, const CeldClosureCurve 
 
       for (int k = 0; k < steps; k++)
         {
-          double    t = (k + 0.5) / steps;
-          CeldPlace place = { p.x + t * (q.x - p.x), p.y + t * (q.y - p.y) };
+          double t = (k + 0.5) / steps;
 
-          if (!is_allowed (r, chain, curve, place) || (k % 4 == 0 && distance_to_chain (r, chain, place) > most))
+          if (!is_allowed (r, chain, curve, (CeldPlace) { p.x + t * (q.x - p.x), p.y + t * (q.y - p.y) }))
             return false;
         }
     }

@@ -55,41 +55,26 @@ celd_curve_draw (const CeldLineEnd *from, const CeldLineEnd *to, CeldPlace place
 {
   CeldPlace p = from->at, q = to->at;
   double    x = q.x - p.x, y = q.y - p.y, length = sqrt (x * x + y * y);
-  double    a = angle_off (from, x, y), b = angle_off (to, -x, -y), trust, m, n, px, py, qx, qy;
+  double    a = angle_off (from, x, y), b = angle_off (to, -x, -y), trust, m, n;
   size_t    last = (size_t) fmin (CELD_CURVE_PLACES - 1, ceil (length / SPACING));
 
   trust = fade (fmax (fabs (a), fabs (b)), TRUSTED, MOST_ANGLE);
-  if (a * b > 0)
-    trust *= fade (fmin (fabs (a), fabs (b)), 0, MOST_S); /* in an S both ends turn to the same side as seen from them
-                                                           */
-  m  = trust * tangent_length (a, length);
-  n  = trust * tangent_length (b, length);
-  px = m * from->dx;
-  py = m * from->dy;
-  qx = -n * to->dx;
-  qy = -n * to->dy;
+  if (a * b > 0) /* in an S both ends turn to the same side as seen from them */
+    trust *= fade (fmin (fabs (a), fabs (b)), 0, MOST_S);
   if (trust <= 0 || last < 2 || (!from->tip && !to->tip))
     {
       place[0] = p;
       place[1] = q;
       return 2;
     }
-  if (!from->tip) /* no curvature where the curve meets the side of a line */
-    {
-      px = 1.5 * x - 0.5 * qx;
-      py = 1.5 * y - 0.5 * qy;
-    }
-  if (!to->tip)
-    {
-      qx = 1.5 * x - 0.5 * px;
-      qy = 1.5 * y - 0.5 * py;
-    }
+  m = trust * tangent_length (a, length);
+  n = trust * tangent_length (b, length);
   for (size_t i = 0; i <= last; i++)
     {
       double t = (double) i / (double) last, s = 1 - t;
-      double h = t * t * (3 - 2 * t), g = t * s * s, k = -t * t * s;
+      double h = t * t * (3 - 2 * t), g = t * s * s * m, k = t * t * s * n;
 
-      place[i] = (CeldPlace) { p.x + h * x + g * px + k * qx, p.y + h * y + g * py + k * qy };
+      place[i] = (CeldPlace) { p.x + h * x + g * from->dx + k * to->dx, p.y + h * y + g * from->dy + k * to->dy };
     }
   return last + 1;
 }
@@ -145,8 +130,6 @@ find_ends (CeldRedrawing *r, const CeldChain *chain, const CeldCorner *corner)
     celd_line_end_aim (r->task->ink, a, b);
   if (a->n && !a->tip)
     celd_line_end_aim (r->task->ink, b, a);
-  if (b->n && !b->tip && !a->tip)
-    celd_line_end_aim (r->task->ink, a, b); /* again, for the narrowest place between two sides of lines */
   if (!a->n || !b->n)
     a->tip = b->tip = false;   /* a boundary may meet the frame or another one in any direction */
 }
