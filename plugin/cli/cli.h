@@ -123,7 +123,7 @@ void cli_say_keep (void);
 void cli_say_kept (bool show);
 /* Begins messages with what they are about; NULL: with nothing.  Borrows the text. */
 void cli_say_about (const char *what);
-/* Leaves a folder out of the names in messages; NULL: none.  Borrows the name. */
+/* Leaves a folder out of the names in messages, and the endings of names in it; NULL: none.  Borrows the name. */
 void cli_say_without (const char *folder);
 /* A text of core in the language of the locale, a CeldTranslate: what is said about drawings. */
 const char *cli_in_language (const char *text);

@@ -7,6 +7,7 @@
 #include <glib/gi18n.h>
 #include <stdarg.h>
 #include <stdio.h>
+#include <string.h>
 
 #define MOST_PROBLEMS 12 /* that are printed (chosen) */
 
@@ -37,6 +38,27 @@ cli_say_without (const char *folder)
   hidden_folder = folder;
 }
 
+/* Leaves out the folder of a file that stands for standard input or output, and the ending of its name, which a message
+ * has in quotes. */
+static char *
+without_folder (const char *text)
+{
+  char  *prefix = g_strconcat (hidden_folder, G_DIR_SEPARATOR_S, NULL), *whole;
+  char **pieces = g_strsplit (text, prefix, 0);
+
+  for (char **name = pieces; *name && *++name;)
+    {
+      char *end = strchr (*name, '"'), *dot = strchr (*name, '.');
+
+      if (end && dot && dot < end)
+        memmove (dot, end, strlen (end) + 1);
+    }
+  whole = g_strjoinv ("", pieces);
+  g_strfreev (pieces);
+  g_free (prefix);
+  return whole;
+}
+
 static const char *place; /* what messages are about; NULL: they say it themselves */
 
 void
@@ -54,13 +76,10 @@ say (const char *format, va_list arguments)
     g_free (plain);
   if (hidden_folder)
     {
-      char  *prefix = g_strconcat (hidden_folder, G_DIR_SEPARATOR_S, NULL);
-      char **pieces = g_strsplit (text, prefix, 0);
+      char *whole = without_folder (text);
 
       g_free (text);
-      text = g_strjoinv ("", pieces);
-      g_strfreev (pieces);
-      g_free (prefix);
+      text = whole;
     }
   cli_bar_hide ();
   if (kept)

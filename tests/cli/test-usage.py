@@ -211,6 +211,11 @@ class Usage(Test):
         done = run('popup', '-', '--depth', 'd.png', given='nothing')
         self.assertEqual(done.returncode, 1)
         self.assertIn('"standard input"', done.stderr.decode())
+        with open(self.path('drawing.png'), 'rb') as file, open(self.path('half'), 'wb') as half:
+            half.write(file.read()[:120])
+            before.add('half')
+        done = run('popup', '-', '--depth', 'd.png', given='half')
+        self.assertEqual((done.returncode, done.stderr.decode()[:45]), (1, 'celdepth: Cannot read "standard input": it is'))
         self.assertEqual(set(os.listdir(self.folder)), before)
 
     def test_closed_standard_files(self):
