@@ -49,8 +49,11 @@ bool cli_files_stream (const CliCommand *command, CliOptions *options);
 bool cli_outputs_check        (const CliOptions *options);
 /* Whether the outputs can be written there, which is checked before the work begins. */
 bool cli_outputs_check_places (const CliOptions *options);
-/* Makes a folder that gets files of their own names, when there are some; NULL: none.  False with a message. */
-bool cli_outputs_make_folder  (const char *path);
+/* Makes a folder that gets files of their own names, when there are some; NULL: none.  *made is how many were missing,
+ * those above it with it.  False with a message. */
+bool cli_outputs_make_folder  (const char *path, int *made);
+/* Removes so many folders again, as far as they are empty. */
+void cli_outputs_unmake_folder (const char *path, int made);
 
 /* ------------------------------------------------------------------ streams.c */
 

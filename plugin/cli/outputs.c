@@ -287,35 +287,61 @@ check_maps (const char *path, const CliOptions *options)
   return good;
 }
 
-/* Whether files can be written in a folder that is there, or that can be made; with a message if not. */
-static bool
-check_folder (const char *path)
+/* The path, or the nearest folder above it, that is there; *missing is how many below it are not.  Free with g_free. */
+static char *
+existing_place (const char *path, int *missing)
 {
-  char *place = g_canonicalize_filename (path ? path : ".", NULL);
-  bool  there = true, good = true;
+  char *place = g_canonicalize_filename (path, NULL);
 
-  while (!g_file_test (place, G_FILE_TEST_EXISTS))
+  for (*missing = 0; !g_file_test (place, G_FILE_TEST_EXISTS); ++*missing)
     {
       char *above = g_path_get_dirname (place);
 
       g_free (place);
       place = above;
-      there = false;
     }
+  return place;
+}
+
+/* Whether files can be written in a folder that is there, or that can be made; with a message if not. */
+static bool
+check_folder (const char *path)
+{
+  int   missing;
+  char *place = existing_place (path ? path : ".", &missing);
+  bool  good = true;
+
   if (path && !g_file_test (place, G_FILE_TEST_IS_DIR))
-    good = cli_error ("Cannot make the folder \"%s\": %s.", path, g_strerror (there ? EEXIST : ENOTDIR));
+    good = cli_error ("Cannot make the folder \"%s\": %s.", path, g_strerror (missing ? ENOTDIR : EEXIST));
   else if (path && g_access (place, W_OK))
-    good = there ? cli_error ("Cannot write in the folder \"%s\": %s.", path, g_strerror (errno))
-                 : cli_error ("Cannot make the folder \"%s\": %s.", path, g_strerror (errno));
+    good = missing ? cli_error ("Cannot make the folder \"%s\": %s.", path, g_strerror (errno))
+                   : cli_error ("Cannot write in the folder \"%s\": %s.", path, g_strerror (errno));
   g_free (place);
   return good;
 }
 
 bool
-cli_outputs_make_folder (const char *path)
+cli_outputs_make_folder (const char *path, int *made)
 {
+  if (path)
+    g_free (existing_place (path, made));
   return !path || !g_mkdir_with_parents (path, 0777) ||
          cli_error ("Cannot make the folder \"%s\": %s.", path, g_strerror (errno));
+}
+
+void
+cli_outputs_unmake_folder (const char *path, int made)
+{
+  char *place = g_canonicalize_filename (path, NULL);
+
+  for (int i = 0; i < made && !g_rmdir (place); i++)
+    {
+      char *above = g_path_get_dirname (place);
+
+      g_free (place);
+      place = above;
+    }
+  g_free (place);
 }
 
 bool

@@ -238,6 +238,19 @@ make_pages (CliBook *book)
 
 /* ------------------------------------------------------------------ the command */
 
+/* The exit code; a new folder in which no page was made is not left. */
+static int
+make_in_folder (CliBook *book)
+{
+  const char *folder = book->options.output_dir;
+  int         made = 0, code = CLI_FAILED;
+
+  if (cli_outputs_make_folder (folder, &made))
+    code = make_pages (book);
+  cli_outputs_unmake_folder (folder, made);
+  return code;
+}
+
 static void
 clear_book (CliBook *book)
 {
@@ -278,7 +291,7 @@ cli_pages_run (const CliCommand *command, int argc, char **argv)
       if (code == CLI_DONE)
         code = take_pages (&book, words) ? CLI_DONE : CLI_USAGE;
       if (code == CLI_DONE)
-        code = cli_outputs_make_folder (book.options.output_dir) ? make_pages (&book) : CLI_FAILED;
+        code = make_in_folder (&book);
       cli_options_clear (&book.options);
     }
   clear_book (&book);

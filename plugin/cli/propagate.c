@@ -329,7 +329,9 @@ write_slurm (const Work *w, const char *path)
 static bool
 make_folders (const CliOptions *options)
 {
-  return cli_outputs_make_folder (options->labels_dir) && cli_outputs_make_folder (options->depth_dir);
+  int made;
+
+  return cli_outputs_make_folder (options->labels_dir, &made) && cli_outputs_make_folder (options->depth_dir, &made);
 }
 
 /* The exit code; that of contradictions is found by the caller. */

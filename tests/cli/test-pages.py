@@ -129,6 +129,15 @@ class Pages(Test):
             self.assertIn('Cannot read "lost.ora"', text)
             self.assertEqual(list(self.times()), ['good-levels.png'])
 
+    def test_nothing_made(self):
+        """A new folder, and those above it, are not left without a page; one that was there is."""
+        words = 'popup', self.page('bare.ora', scribbled=False), '--output-dir'
+        for folder in ('out', 'new/out/'):
+            self.fails(*words, folder, naming='1 page: 0 made, 0 kept from an earlier run, 1 failed')
+        os.makedirs(self.path('new/out'))
+        self.fails(*words, 'new/out', naming='1 failed')
+        self.assertTrue(os.path.isdir(self.path('new/out')))
+
     def test_contradictions(self):
         """Exit code 3, also where the page was made earlier."""
         self.page('a.ora')
