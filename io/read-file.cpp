@@ -10,10 +10,13 @@
 
 #include <OpenImageIO/imageio.h>
 #include <OpenImageIO/strutil.h>
+#include <OpenImageIO/tiffutils.h>
 
 #include <algorithm>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <limits>
 
 #include <fcntl.h>
@@ -100,6 +103,8 @@ colour_channels (const ImageSpec &spec)
 
 // ------------------------------------------------------------------ opening
 
+constexpr uint32_t most_exif = 1 << 16; // bytes; as many as a JPEG can have
+
 static bool
 is_linear (const ImageSpec &spec, const char *format)
 {
@@ -166,6 +171,42 @@ name_layers (DecodedFile &file, const std::vector<std::string> &names)
       file.parts[i + 1].name = names[i];
 }
 
+// The orientation in the Exif chunk of a WebP, which OpenImageIO passes over (RFC 9649, section 2.3: a chunk is a name, its
+// size, and so many bytes, or one more); 1 if there is none.
+static int
+webp_orientation (const std::string &path)
+{
+  std::ifstream file (path, std::ios::binary);
+  unsigned char head[8];
+  ImageSpec     notes;
+
+  file.seekg (12);
+  while (file.read (reinterpret_cast<char *> (head), sizeof head))
+    {
+      const uint32_t size = head[4] | uint32_t (head[5]) << 8 | uint32_t (head[6]) << 16 | uint32_t (head[7]) << 24;
+      std::string    exif;
+
+      if (std::memcmp (head, "EXIF", 4))
+        {
+          file.seekg (std::streamoff (size) + size % 2, std::ios::cur);
+          continue;
+        }
+      exif.resize (std::min (size, most_exif));
+      if (file.read (exif.data (), std::streamsize (exif.size ())))
+        OIIO::decode_exif (exif, notes);
+      break;
+    }
+  return notes.get_int_attribute ("Orientation", 1);
+}
+
+static int
+orientation_of (const DecodedFile &file, const std::string &path)
+{
+  if (!file.specs[0].find_attribute ("Orientation") && iequals (file.input->format_name (), "webp"))
+    return webp_orientation (path);
+  return file.specs[0].get_int_attribute ("Orientation", 1);
+}
+
 static std::unique_ptr<PictureFile>
 open_decoded (const std::string &path, std::unique_ptr<Descriptor> descriptor)
 {
@@ -207,7 +248,7 @@ open_decoded (const std::string &path, std::unique_ptr<Descriptor> descriptor)
   if (file->specs.size () > 1)
     return file;
 
-  const int orientation = file->specs[0].get_int_attribute ("Orientation", 1);
+  const int orientation = orientation_of (*file, path);
 
   return turned (std::move (file), orientation);
 }

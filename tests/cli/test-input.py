@@ -196,11 +196,18 @@ class Layers(Test):
                  Image.Transpose.ROTATE_270]
         page = drawing().convert('RGB')
         for orientation, turn in enumerate(turns, 2):
+            noted = Image.Exif()
+            noted[274] = orientation
             page.transpose(turn).save(self.path('page.tif'), tiffinfo={274: orientation})
-            shown = Image.open(self.path('page.tif')).convert('RGB')  # Pillow turns a TIFF
-            self.assertEqual(shown.tobytes(), page.tobytes(), f'orientation {orientation}')
-            with self.subTest(orientation=orientation):
-                self.same_labels('page.tif', '--scribbles', 'scribbles.png')
+            page.transpose(turn).save(self.path('page.png'), exif=noted)
+            page.transpose(turn).save(self.path('page.webp'), exif=noted, lossless=True)
+            for name in ('page.tif', 'page.png', 'page.webp')[:3 if orientation == 6 else 1]:
+                shown = Image.open(self.path(name))
+                if name != 'page.tif':  # Pillow turns those alone by itself
+                    shown = ImageOps.exif_transpose(shown)
+                self.assertEqual(shown.convert('RGB').tobytes(), page.tobytes(), f'{name}, orientation {orientation}')
+                with self.subTest(name, orientation=orientation):
+                    self.same_labels(name, '--scribbles', 'scribbles.png')
 
     def test_open_raster(self):
         """Layers in a stack of their own, hidden and half transparent, as artists keep their scribbles."""

@@ -38,7 +38,7 @@ def good_files(folder):
     def path(name):
         return os.path.join(folder, name)
 
-    strokes, box = scribbles(), scribbles().getbbox()
+    strokes, box, turned = scribbles(), scribbles().getbbox(), Image.Exif()
     page = drawing().convert('RGBA').crop((4, 4, WIDTH, HEIGHT))
     write_psd(path('layers.psd'), (WIDTH, HEIGHT),
               [('drawing', 4, 4, page), ('Čmáranice', box[0], box[1], strokes.crop(box))])
@@ -48,6 +48,8 @@ def good_files(folder):
     drawing().convert('RGB').save(path('progressive.jpg'), progressive=True)
     for name in ('plain.webp', 'plain.bmp'):
         drawing().convert('RGB').save(path(name))
+    turned[274] = 3
+    drawing().convert('RGB').save(path('turned.webp'), exif=turned)
     drawing().save(path('moving.gif'), save_all=True, append_images=[Image.new('L', (WIDTH, HEIGHT), 9)])
     for kind in ('tiff_lzw', 'tiff_deflate', 'packbits', 'raw'):
         strokes.save(path(f'{kind}.tif'), compression=kind)
