@@ -37,6 +37,7 @@ typedef struct
   bool        grey;      /* red, green and blue are the same */
   bool        linear;    /* linear light (EXR, HDR); else encoded */
   int         bits;      /* of a channel: 8, 16, 32 */
+  bool        frame;     /* the first of several frames or pages of a size, which may be no parts */
 } CeldIoPart;
 
 /* Forks the reading process off this program, in 2 ms; the program must have a single thread when it calls this.

@@ -109,7 +109,7 @@ public:
   {
     width  = canvas_width;
     height = canvas_height;
-    parts.push_back ({ layer.name, { nullptr, true, false, false, 8 } });
+    parts.push_back ({ layer.name, { nullptr, true, false, false, 8, false } });
   }
 
   uint64_t

@@ -10,13 +10,10 @@
 
 #include <OpenImageIO/imageio.h>
 #include <OpenImageIO/strutil.h>
-#include <OpenImageIO/tiffutils.h>
 
 #include <algorithm>
 #include <cstdlib>
-#include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <limits>
 
 #include <fcntl.h>
@@ -103,8 +100,6 @@ colour_channels (const ImageSpec &spec)
 
 // ------------------------------------------------------------------ opening
 
-constexpr uint32_t most_exif = 1 << 16; // bytes; as many as a JPEG can have
-
 static bool
 is_linear (const ImageSpec &spec, const char *format)
 {
@@ -171,40 +166,27 @@ name_layers (DecodedFile &file, const std::vector<std::string> &names)
       file.parts[i + 1].name = names[i];
 }
 
-// The orientation in the Exif chunk of a WebP, which OpenImageIO passes over (RFC 9649, section 2.3: a chunk is a name, its
-// size, and so many bytes, or one more); 1 if there is none.
-static int
-webp_orientation (const std::string &path)
-{
-  std::ifstream file (path, std::ios::binary);
-  unsigned char head[8];
-  ImageSpec     notes;
-
-  file.seekg (12);
-  while (file.read (reinterpret_cast<char *> (head), sizeof head))
-    {
-      const uint32_t size = head[4] | uint32_t (head[5]) << 8 | uint32_t (head[6]) << 16 | uint32_t (head[7]) << 24;
-      std::string    exif;
-
-      if (std::memcmp (head, "EXIF", 4))
-        {
-          file.seekg (std::streamoff (size) + size % 2, std::ios::cur);
-          continue;
-        }
-      exif.resize (std::min (size, most_exif));
-      if (file.read (exif.data (), std::streamsize (exif.size ())))
-        OIIO::decode_exif (exif, notes);
-      break;
-    }
-  return notes.get_int_attribute ("Orientation", 1);
-}
-
 static int
 orientation_of (const DecodedFile &file, const std::string &path)
 {
   if (!file.specs[0].find_attribute ("Orientation") && iequals (file.input->format_name (), "webp"))
     return webp_orientation (path);
   return file.specs[0].get_int_attribute ("Orientation", 1);
+}
+
+// Whether the file has several pictures of a size that follow each other, of which OpenImageIO tells in some formats.
+static bool
+has_frames (const DecodedFile &file, const std::string &path)
+{
+  const char      *format = file.input->format_name ();
+  const ImageSpec &first = file.specs[0], &last = file.specs.back ();
+
+  if (iequals (format, "png"))
+    return png_is_animated (path);
+  if (iequals (format, "webp"))
+    return first.get_int_attribute ("oiio:Movie");
+  return file.specs.size () > 1 && (iequals (format, "gif") || iequals (format, "tiff")) && first.width == last.width &&
+         first.height == last.height;
 }
 
 static std::unique_ptr<PictureFile>
@@ -245,6 +227,7 @@ open_decoded (const std::string &path, std::unique_ptr<Descriptor> descriptor)
     file->parts.push_back (describe (spec, file->width, file->height, file->input->format_name ()));
   if (iequals (file->input->format_name (), "psd"))
     name_layers (*file, psd_layer_names (path));
+  file->parts[0].info.frame = has_frames (*file, path);
   if (file->specs.size () > 1)
     return file;
 

@@ -1,6 +1,7 @@
 // Pictures in files, decoded in the reading process.
 //
 //   read-file.cpp     what OpenImageIO decodes
+//   chunks.cpp        what OpenImageIO passes over in a WebP and a PNG
 //   psd-names.cpp     what OpenImageIO does not read of a PSD
 //   read-turned.cpp   pictures of a camera that was turned
 //   read-layered.cpp  OpenRaster and Krita documents: a zip of layers
@@ -63,6 +64,12 @@ std::unique_ptr<PictureFile> open_png (OIIO::Filesystem::IOProxy &stream, const 
 
 // The file as it is to be shown, by the tag Orientation of Exif (1 = as it is stored; so are values that it cannot have).
 std::unique_ptr<PictureFile> turned (std::unique_ptr<PictureFile> file, int orientation);
+
+// The orientation that the Exif chunk of a WebP notes; 1 if there is none.
+int webp_orientation (const std::string &path);
+
+// Whether a PNG is animated (APNG).
+bool png_is_animated (const std::string &path);
 
 // The names of a PSD's layers in Unicode, from the lowest layer to the highest, "" where one has none; empty if the file
 // is damaged.

@@ -138,7 +138,7 @@ LayeredFile::open_layer (const Layer &layer) const
 void
 LayeredFile::add_part (const Layer &layer)
 {
-  Part        part = { layer.name, { nullptr, true, false, false, 8 } };
+  Part        part = { layer.name, { nullptr, true, false, false, 8, false } };
   std::string icc, why;
 
   if (layer.store != Store::group)

@@ -84,6 +84,7 @@ send_part (const Wire &wire, const PictureFile &file, size_t part)
   wire.send (info.alpha);
   wire.send (info.grey);
   wire.send (info.linear);
+  wire.send (info.frame);
   wire.send (info.bits);
   wire.send_text (file.profile (part), longest_profile);
 }

@@ -21,7 +21,7 @@ struct WireFailure : std::runtime_error
 
 // The first number that a worker sends.  It has to change with the messages, because a module may find a celdepth-read
 // of another version.
-constexpr uint32_t wire_version = 0xCE1D0001;
+constexpr uint32_t wire_version = 0xCE1D0002;
 
 // The descriptor that is celdepth-read's end of the control socket.
 constexpr int control_descriptor = 3;

@@ -243,6 +243,7 @@ receive_part (const Wire &wire, DescribedPart &part)
   part.info.alpha = wire.receive<uint8_t> ();
   part.info.grey = wire.receive<uint8_t> ();
   part.info.linear = wire.receive<uint8_t> ();
+  part.info.frame = wire.receive<uint8_t> ();
   part.info.bits = wire.receive<int> ();
   part.profile = wire.receive_text (longest_profile);
 }

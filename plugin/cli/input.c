@@ -141,21 +141,36 @@ read_numbers (const char *path, CliLayers *layers, CeldPaint *paint)
   return good;
 }
 
+/* Tells that the first of several pictures is read, none of which has the name of a layer. */
+static void
+say_frames (const CeldIoFile *file, const char *path)
+{
+  if (celd_io_part (file, 0)->frame)
+    cli_say ("\"%s\" has several frames or pages, of which only the first is read: save the one that you mean as a "
+             "picture of its own.", path);
+}
+
+/* Reads the part that is named after the role, or else the first one. */
+static bool
+read_layer (const char *path, const char *role, bool quiet, CliLayers *layers, CeldPaint *paint)
+{
+  CeldIoFile *file = open_file (path);
+  size_t      part = file ? cli_find_part (file, role) : 0;
+  bool        good = file && check_size (file, path, layers) &&
+                     cli_read_paint (file, part == CELD_NO_INDEX ? 0 : part, path, paint);
+
+  if (good && !quiet && part == CELD_NO_INDEX)
+    say_frames (file, path);
+  celd_io_close (file);
+  return good;
+}
+
 bool
 cli_layer_read (const char *path, const char *role, CliLayers *layers, CeldPaint *paint)
 {
-  CeldIoFile *file;
-  size_t      part;
-  bool        good;
-
   if (cli_is_npy (path) && !strcmp (role, "labels"))
     return read_numbers (path, layers, paint);
-  file = open_file (path);
-  part = file ? cli_find_part (file, role) : 0;
-  good = file && check_size (file, path, layers) &&
-         cli_read_paint (file, part == CELD_NO_INDEX ? 0 : part, path, paint);
-  celd_io_close (file);
-  return good;
+  return read_layer (path, role, true, layers, paint);
 }
 
 bool
@@ -207,6 +222,8 @@ read_input (const char *path, const CliOptions *options, CliRoles wanted, CliLay
 
   if (good && !options->quiet)
     say_left_out (file, drawing, path, "drawing");
+  if (good && !options->quiet && cli_find_part (file, "drawing") == CELD_NO_INDEX)
+    say_frames (file, path);
   for (size_t i = 1; good && i < G_N_ELEMENTS (roles); i++)
     if (wanted & roles[i].role && !path_of (options, roles[i].role))
       {
@@ -229,7 +246,8 @@ cli_layers_read (const char *input, const CliOptions *options, CliRoles wanted, 
 
   for (size_t i = 1; good && i < G_N_ELEMENTS (roles); i++)
     if (wanted & roles[i].role && path_of (options, roles[i].role))
-      good = cli_layer_read (path_of (options, roles[i].role), roles[i].name, layers, paint_of (layers, roles[i].role));
+      good = read_layer (path_of (options, roles[i].role), roles[i].name, options->quiet, layers,
+                         paint_of (layers, roles[i].role));
   for (size_t i = 1; good && i < G_N_ELEMENTS (roles); i++)
     if (roles[i].role != CLI_SCRIBBLES && paint_of (layers, roles[i].role)->data)
       good = cli_check_strokes (path_of (options, roles[i].role) ? path_of (options, roles[i].role) : input,

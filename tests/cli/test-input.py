@@ -246,6 +246,27 @@ class Layers(Test):
                 layer.save(file, 'TIFF', tiffinfo={page_name: name})
                 file.newFrame()
         self.same_labels('page.tif')
+        self.assertEqual(self.celdepth('segment', 'page.tif', '--labels', 'again.npy'), '')
+
+    def test_frames(self):
+        """Of an animation, or of pages without names of layers, the first is read, and a message says so."""
+        page, other, strokes = drawing().convert('RGB'), Image.new('RGB', (WIDTH, HEIGHT), 'red'), scribbles()
+        words = '--labels', 'again.npy'
+        for ending in ('gif', 'png', 'webp', 'tif'):
+            page.save(self.path(f'one.{ending}'), lossless=True)
+            page.save(self.path(f'all.{ending}'), save_all=True, append_images=[other], lossless=True)
+            with self.subTest(ending):
+                self.assertEqual(self.celdepth('segment', f'one.{ending}', '--scribbles', 'scribbles.png', *words), '')
+                self.assertEqual(
+                    self.celdepth('segment', f'all.{ending}', '--scribbles', 'scribbles.png', *words),
+                    f'celdepth: "all.{ending}" has several frames or pages, of which only the first is read: save the one '
+                    'that you mean as a picture of its own.\n')
+        self.same_labels('all.tif', '--scribbles', 'scribbles.png', '--quiet')
+        strokes.save(self.path('strokes.png'), save_all=True, append_images=[strokes])
+        self.assertIn('"strokes.png" has several frames', self.celdepth('segment', 'drawing.png', '--scribbles',
+                                                                       'strokes.png', *words))
+        page.save(self.path('small.tif'), save_all=True, append_images=[page.resize((9, 6))])  # as a thumbnail
+        self.assertEqual(self.celdepth('segment', 'small.tif', '--scribbles', 'scribbles.png', *words), '')
 
     def test_drawing_option(self):
         """The steps also read the drawing of a layered file."""
