@@ -100,7 +100,7 @@ mix_up_step (const CeldHost *host, Results *r)
   return status == CELD_OK ? celd_mix_up (&scribbles, &drawing, &mix_up) : status;
 }
 
-/* The lines of four rooms in a layer, in levels, and a copy of the layer. */
+/* The lines of four rooms in a layer, in levels, a copy of the layer, and it as strokes. */
 static CeldStatus
 lines_step (const CeldHost *host, Results *r)
 {
@@ -123,7 +123,9 @@ lines_step (const CeldHost *host, Results *r)
   status = celd_layer_has_lines (&layer, &plane, &found);
   if (status == CELD_OK)
     status = celd_levels_have_lines (&plane, &plane, &found);
-  return status == CELD_OK ? celd_is_copy (&layer, &layer, &found) : status;
+  if (status == CELD_OK)
+    status = celd_is_copy (&layer, &layer, &found);
+  return status == CELD_OK ? celd_is_flattened (&layer, &layer, &found) : status;
 }
 
 static CeldStatus

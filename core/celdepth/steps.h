@@ -65,6 +65,8 @@ CELD_API CeldStatus celd_layer_has_lines (const CeldPaint *layer, const CeldPlan
 
 /* Whether a picture is a copy of another one, perhaps stored with loss. */
 CELD_API CeldStatus celd_is_copy (const CeldPaint *a, const CeldPaint *b, bool *copy);
+/* Whether a drawing is nothing but these strokes, on white paper, perhaps stored with loss. */
+CELD_API CeldStatus celd_is_flattened (const CeldPaint *drawing, const CeldPaint *strokes, bool *flattened);
 
 /* Whether the drawing and the scribbles, which may be a drawing, are what they were given for, or exchanged, or the
  * same picture. */

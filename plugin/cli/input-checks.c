@@ -76,6 +76,18 @@ find_mix_up (const CliOptions *options, CliLayers *layers, CeldMixUp *mix_up)
   return good;
 }
 
+/* Refuses a drawing that is nothing but the scribbles. */
+static bool
+check_not_scribbles (const CliOptions *options, const CliLayers *layers)
+{
+  bool flattened = false;
+
+  return (!layers->colours.data ||
+          cli_check (celd_is_flattened (&layers->colours, &layers->scribbles, &flattened))) &&
+         (!flattened || cli_error (_ ("\"%s\" has the strokes of the scribbles \"%s\", and no lines: give the lines "
+                                      "as the drawing."), options->input, options->scribbles));
+}
+
 bool
 cli_check_not_mixed_up (const CliOptions *options, CliLayers *layers)
 {
@@ -84,8 +96,11 @@ cli_check_not_mixed_up (const CliOptions *options, CliLayers *layers)
 
   if (!layers->scribbles.data || !options->scribbles || options->settings.flats)
     return true;
-  if (!cli_check (celd_may_be_drawing (&layers->scribbles, &drawn)) ||
-      (drawn && !find_mix_up (options, layers, &mix_up)))
+  if (!cli_check (celd_may_be_drawing (&layers->scribbles, &drawn)))
+    return false;
+  if (!drawn)
+    return check_not_scribbles (options, layers);
+  if (!find_mix_up (options, layers, &mix_up))
     return false;
   if (mix_up == CELD_LAYERS_SAME)
     return cli_error (_ ("\"%s\" is the same picture as the drawing \"%s\": give a picture of the strokes alone as "

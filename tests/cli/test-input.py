@@ -510,6 +510,16 @@ class Nonsense(Test):
         self.fails('popup', 'drawing.png', '--scribbles', 'copy.png', '--depth', 'd.png',
                    naming='"copy.png" is the same picture as the drawing "drawing.png"')
 
+    def test_scribbles_as_drawing(self):
+        """A flattened copy of the layer, also stored with loss."""
+        on_white = Image.new('RGB', (WIDTH, HEIGHT), 'white')
+        on_white.paste(scribbles(), mask=scribbles())
+        on_white.save(self.path('white.png'))
+        on_white.save(self.path('white.jpg'), quality=95)
+        for name in ('white.png', 'white.jpg'):
+            self.fails('popup', name, '--scribbles', 'scribbles.png', '--depth', 'd.png',
+                       naming=f'"{name}" has the strokes of the scribbles "scribbles.png", and no lines')
+
     def test_one_file_twice(self):
         twice = ['--scribbles', 'scribbles.png', '--arrows', os.path.join('.', 'scribbles.png')]
         self.fails('popup', 'drawing.png', *twice, '--depth', 'd.png', naming='given as --scribbles and as --arrows')

@@ -136,6 +136,44 @@ blank_pages_are_no_copies (void)
   CHECK (mix_up (drawn, drawn) == CELD_LAYERS_SAME);
 }
 
+static bool
+is_flattened (void)
+{
+  CeldPaint a = page (drawn), b = page (strokes);
+  bool      flattened = false;
+
+  CHECK (celd_is_flattened (&a, &b, &flattened) == CELD_OK);
+  return flattened;
+}
+
+/* Strokes on white paper in place of a drawing, also soft ones; not strokes elsewhere, and no fills. */
+static void
+flattened_strokes_are_noticed (void)
+{
+  const uint8_t soft[4] = { 230, 30, 30, 100 }, tint[4] = { 245, 167, 167, 255 };
+
+  draw_strokes (drawn, white, red, blue);
+  draw_strokes (strokes, nothing, red, blue);
+  CHECK (is_flattened ());
+  put (drawn, 2, 2, black);
+  CHECK (is_flattened ());
+  draw_strokes (drawn, white, tint, blue);
+  draw_strokes (strokes, nothing, soft, blue);
+  CHECK (is_flattened ());
+  draw_strokes (strokes, nothing, nothing, blue);
+  CHECK (!is_flattened ());
+  draw_strokes (strokes, nothing, nothing, nothing);
+  CHECK (!is_flattened ());
+  draw_strokes (drawn, white, white, white);
+  CHECK (!is_flattened ());
+  draw_rooms (drawn, red, red, blue);
+  draw_rooms (strokes, red, red, blue);
+  CHECK (!is_flattened ());
+  draw_rooms (drawn, blue, white, white);
+  draw_strokes (strokes, nothing, red, red);
+  CHECK (!is_flattened ());
+}
+
 /* Strokes of another size, and pages so small that a line of text on them has rooms. */
 static void
 pages_of_any_size (void)
@@ -195,6 +233,7 @@ main (void)
   RUN (drawings_are_no_scribbles);
   RUN (copies_are_noticed);
   RUN (blank_pages_are_no_copies);
+  RUN (flattened_strokes_are_noticed);
   RUN (pages_of_any_size);
   RUN (layers_with_lines_are_noticed);
   return DONE;
