@@ -84,6 +84,8 @@ CELD_API bool celd_are_levels (const CeldPlane *levels);
 /* Whether finite levels or depth have the lines of their drawing, its ink or its brightness, dark between both sides,
  * as the drawing itself has them, shaded or coloured.  Levels have them as parts of their sides. */
 CELD_API CeldStatus celd_levels_have_lines (const CeldPlane *levels, const CeldPlane *drawing, bool *have);
+/* Whether finite levels or depth are a drawing, and the drawing, by its brightness, is levels. */
+CELD_API CeldStatus celd_levels_are_exchanged (const CeldPlane *levels, const CeldPlane *drawing, bool *exchanged);
 
 /* Reads painted scribbles: seed labels (0 where nothing is painted), and the palette of their colours, of origin
  * CELD_FROM_SCRIBBLE, by decreasing painted area.  Pixels with alpha below one half count as not painted, and in a

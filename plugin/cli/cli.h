@@ -303,6 +303,7 @@ bool cli_check_regions_of (const char *path, const CeldLabels *regions, const Ce
 /* That levels or depth have not the lines of a drawing, by its ink or brightness; the second one only warns of that. */
 bool cli_check_no_lines (const char *path, const CeldPlane *levels, const char *drawing, const CeldPlane *ink);
 bool cli_warn_of_lines  (const char *path, const CeldPlane *levels, const char *drawing, const CeldPlane *ink);
+bool cli_check_not_exchanged (const CliOptions *options, const CeldPlane *levels, CliLayers *layers); /* with the drawing */
 bool cli_check_not_art  (const char *path, const char *art);          /* that levels are no copy of the art */
 bool cli_check_hint     (const char *path, const CeldPlane *depth, bool quiet); /* not blank; warns of photographs */
 void cli_warn_if_flat   (const char *path, const CeldPlane *levels);  /* that all levels are the same */

@@ -136,6 +136,27 @@ cli_check_not_art (const char *path, const char *art)
   return good;
 }
 
+/* Levels are grey and opaque, so that any other drawing is none. */
+bool
+cli_check_not_exchanged (const CliOptions *options, const CeldPlane *levels, CliLayers *layers)
+{
+  CeldColours picture = { 0 };
+  CeldPlane   brightness = { 0 };
+  bool        exchanged = false, good;
+
+  if (layers->colours.data || layers->drawing.alpha.data)
+    return true;
+  good = cli_art_read (options->drawing, NULL, false, layers, &picture) &&
+         cli_plane_new (picture.width, picture.height, &brightness);
+  for (size_t i = 0; good && i < (size_t) picture.width * (size_t) picture.height; i++)
+    brightness.data[i] = picture.data[4 * i];
+  good = good && cli_check (celd_levels_are_exchanged (levels, &brightness, &exchanged));
+  g_free (picture.data);
+  g_free (brightness.data);
+  return good && (!exchanged || cli_error ("\"%s\" looks like a drawing and \"%s\" like levels: exchange them.",
+                                           options->input, options->drawing));
+}
+
 /* ------------------------------------------------------------------ hints of depth */
 
 /* Whether a picture has a pixel that can be seen. */

@@ -81,7 +81,8 @@ read_all (const CliOptions *options, Shade *s)
     cli_warn_if_flat (options->input, &s->levels);
   s->layers.width  = s->levels.width;
   s->layers.height = s->levels.height;
-  return cli_layers_read (options->drawing, options, CLI_CONTOURS, &s->layers) && read_depth (options, s) &&
+  return cli_layers_read (options->drawing, options, CLI_CONTOURS, &s->layers) &&
+         cli_check_not_exchanged (options, &s->levels, &s->layers) && read_depth (options, s) &&
          read_hints (options, s) && read_art (options, s) &&
          (!options->matcap || cli_read_colours (options->matcap, &s->matcap));
 }

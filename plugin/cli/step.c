@@ -52,6 +52,7 @@ cli_step_begin (const CliOptions *options, CliStep *step)
   step->layers.width  = step->levels.width;
   step->layers.height = step->levels.height;
   return cli_layers_read (options->drawing, options, CLI_CONTOURS, &step->layers) &&
+         cli_check_not_exchanged (options, &step->levels, &step->layers) &&
          cli_make_ink (&step->layers, CELD_FOR_DEPTH, options, &step->run, &step->ink) &&
          cli_check_lines (options->drawing, &step->ink) && check_no_lines (options, step) &&
          (!step->layers.contours.data ||

@@ -639,6 +639,19 @@ class Nonsense(Test):
         for art in ('drawing.png', 'shaded.png', 'coloured.png'):
             self.assertEqual(self.celdepth('enhance', 'levels.npy', *words, art), '')
 
+    def test_exchanged_levels(self):
+        """Levels and drawing, ink or chalk, also where the lines of one are not those of the other."""
+        self.shade()
+        Image.open(self.path('drawing.png')).transpose(Image.Transpose.FLIP_TOP_BOTTOM).save(self.path('other.png'))
+        ImageOps.invert(drawing()).save(self.path('chalk.png'))
+        self.popup('--relations', RELATIONS, '--levels', 'levels.png')
+        for command, *words in (('shade', '--shading', 's.png'), ('smooth', '--depth', 'd.png'),
+                                ('expand', '--levels', 'l.png'), ('relief', '--height', 'h.png')):
+            for name in ('drawing.png', 'other.png', 'chalk.png'):
+                self.fails(command, name, '--drawing', 'levels.png', *words,
+                           naming=f'"{name}" looks like a drawing and "levels.png" like levels: exchange them.')
+        self.assertEqual(self.celdepth('shade', 'levels.png', '--drawing', 'chalk.png', '--shading', 's.png'), '')
+
     def test_drawings_as_regions(self):
         self.shade()
         for words in (('order', 'NAME', '--unexpanded-levels', 'l.npy'), ('expand', 'levels.npy', '--regions', 'NAME',

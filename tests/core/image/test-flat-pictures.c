@@ -134,6 +134,52 @@ drawings_have_lines (void)
   CHECK (celd_levels_have_lines (&levels, &small, &have) == CELD_BAD_SIZE && have);
 }
 
+static float
+inked (int x, int y)
+{
+  return line_at (x, y) ? 0 : 1;
+}
+
+static float
+chalked (int x, int y)
+{
+  return 1 - inked (x, y);
+}
+
+/* The same parts in flat colours. */
+static float
+with_fills (int x, int y)
+{
+  return with_gaps (x, y) > 0 ? level_at (x, y) : 2.5f;
+}
+
+static bool
+are_exchanged (float (*level) (int x, int y), float (*drawing) (int x, int y))
+{
+  static float drawn[SIDE * SIDE];
+  CeldPlane    levels = { SIDE, SIDE, SIDE, pixels }, plane = { SIDE, SIDE, SIDE, drawn };
+  bool         exchanged = false;
+
+  for (int i = 0; i < SIDE * SIDE; i++)
+    {
+      pixels[i] = level (i % SIDE, i / SIDE);
+      drawn[i] = drawing (i % SIDE, i / SIDE);
+    }
+  CHECK (celd_levels_are_exchanged (&levels, &plane, &exchanged) == CELD_OK);
+  return exchanged;
+}
+
+/* A drawing has more lines and edges than its levels; what has none of either is not told. */
+static void
+exchanged_levels_are_noticed (void)
+{
+  CHECK (are_exchanged (inked, level_at) && are_exchanged (chalked, level_at) && are_exchanged (inked, flat));
+  CHECK (!are_exchanged (level_at, inked) && !are_exchanged (level_at, chalked) && !are_exchanged (with_gaps, inked));
+  CHECK (!are_exchanged (flat, inked) && !are_exchanged (flat, flat));
+  CHECK (!are_exchanged (inked, inked) && !are_exchanged (level_at, level_at));
+  CHECK (!are_exchanged (with_gaps, with_fills));
+}
+
 /* More than half of the pixels of a picture with many labels differ from one beside them. */
 static void
 labels_are_flat (void)
@@ -177,6 +223,7 @@ main (void)
   RUN (grainy_pictures_are_none);
   RUN (smooth_depth_is_depth);
   RUN (drawings_have_lines);
+  RUN (exchanged_levels_are_noticed);
   RUN (labels_are_flat);
   RUN (labels_have_many_pixels);
   return DONE;
