@@ -76,6 +76,8 @@ CELD_API CeldStatus celd_mix_up (const CeldPaint *drawing, const CeldPaint *scri
 /* Whether more than a hundredth of a picture is in colour, by more than JPEG makes of grey: levels and depth are
  * not. */
 CELD_API bool celd_paint_is_coloured (const CeldPaint *paint);
+/* Whether something in clear colours is painted, be it a few thin strokes. */
+CELD_API bool celd_paint_has_colours (const CeldPaint *paint);
 
 /* Whether labels of flat colours, and finite levels or depth, flat or smooth, can be such: no photograph with grain or
  * texture can.  For hosts, as those above. */

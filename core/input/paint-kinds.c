@@ -18,6 +18,7 @@
 #define SMALL_BLANK 0.5  /* the same in small pictures (measured: 0.58) */
 #define LIGHT_STEP  6    /* of 8 steps of a channel: paper is as light; chosen */
 #define FAINT_HUE   12   /* of 255: of what is not grey, more than JPEG makes; chosen */
+#define FEW_CLEAR   20000 /* the page divided by the least area of clear colours: a short hairline of a large page; chosen */
 #define WHITE       230  /* of 255: channels of paper are larger; chosen */
 
 /* ------------------------------------------------------------------ a photograph */
@@ -127,6 +128,17 @@ celd_paint_is_coloured (const CeldPaint *paint)
     for (int x = 0; x < paint->width; x++)
       hued += CELD_RGBA (paint, x, y)[3] && hue_of (CELD_RGBA (paint, x, y)) > FAINT_HUE;
   return 100 * hued > (size_t) paint->width * (size_t) paint->height;
+}
+
+bool
+celd_paint_has_colours (const CeldPaint *paint)
+{
+  size_t clear = 0;
+
+  for (int y = 0; y < paint->height; y++)
+    for (int x = 0; x < paint->width; x++)
+      clear += CELD_RGBA (paint, x, y)[3] >= 128 && hue_of (CELD_RGBA (paint, x, y)) >= CELD_CLEAR_HUE;
+  return FEW_CLEAR * clear >= (size_t) paint->width * (size_t) paint->height;
 }
 
 bool

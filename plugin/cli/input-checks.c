@@ -124,7 +124,7 @@ check_scribbles (const CliOptions *options, const CliLayers *layers, const CeldP
     return true;
   if (!cli_check (celd_layer_has_lines (&layers->scribbles, ink, &have)))
     return false;
-  if (have && !celd_paint_is_coloured (&layers->scribbles))
+  if (have && !celd_paint_has_colours (&layers->scribbles) && !celd_paint_is_coloured (&layers->scribbles))
     return cli_error (_ ("\"%s\" has the lines of the drawing, and no colours: give a picture of the strokes alone as "
                          "scribbles."), path);
   if (have && !options->quiet)

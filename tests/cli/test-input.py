@@ -583,6 +583,19 @@ class Nonsense(Test):
         self.assertIn('"coloured.png" has the lines of the drawing, too: ', self.celdepth(*words, 'coloured.png'))
         self.assertNotIn('lines', self.celdepth(*words, 'coloured.png', '--quiet'))
 
+    def test_thin_strokes_on_a_drawing(self):
+        """What takes less than a hundredth of the page is scribbles, too."""
+        page = Image.new('RGB', (1000, 700), 'white')
+        draw = ImageDraw.Draw(page)
+        draw.rectangle([60, 60, 480, 640], outline='black', width=6)
+        draw.rectangle([300, 200, 900, 500], outline='black', width=6)
+        page.save(self.path('drawing.png'))
+        draw.line([(90, 90), (450, 110)], fill=RED, width=3)
+        draw.line([(520, 300), (850, 310)], fill=BLUE, width=3)
+        page.save(self.path('on.png'))
+        says = self.celdepth('segment', 'drawing.png', '--scribbles', 'on.png', '--labels', 'l.png')
+        self.assertIn('"on.png" has the lines of the drawing, too: give the strokes alone', says)
+
     def test_broad_lines_in_a_layer(self):
         """Strokes on a copy of a drawing in lines of a fortieth of the page; strokes alone are none."""
         page = Image.new('RGB', (1000, 700), 'white')

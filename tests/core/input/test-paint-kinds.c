@@ -155,6 +155,26 @@ colours (void)
   CHECK (!celd_paint_is_coloured (&paint)); /* what is transparent has no colour */
 }
 
+/* A clear colour on two of 40000 pixels, which is seen. */
+static void
+few_colours (void)
+{
+  static uint8_t large[4 * 200 * 200];
+  CeldPaint      paint = { 200, 200, 200, large };
+
+  for (int i = 0; i < 200 * 200; i++)
+    paint.data[4 * i + 3] = 255;
+  CHECK (!celd_paint_has_colours (&paint));
+  paint.data[0] = paint.data[4] = 63;
+  CHECK (!celd_paint_has_colours (&paint));
+  paint.data[0] = 64;
+  CHECK (!celd_paint_has_colours (&paint));
+  paint.data[4] = 64;
+  CHECK (celd_paint_has_colours (&paint));
+  paint.data[3] = 127;
+  CHECK (!celd_paint_has_colours (&paint));
+}
+
 int
 main (void)
 {
@@ -164,5 +184,6 @@ main (void)
   RUN (grey_pictures);
   RUN (fills);
   RUN (colours);
+  RUN (few_colours);
   return DONE;
 }
