@@ -15,6 +15,7 @@
 #define CELD_ARM_BEGIN   1.5 /* widths from the end of a line to where its direction is measured; chosen */
 #define CELD_ARM_LED     8   /* widths by which lines are led on to the tips of heads; chosen */
 #define CELD_NEAR_ENDS   1.5 /* widths, and a pixel: ends of two arrows that are at one place, at most; chosen */
+#define CELD_ONE_PLACE   2   /* widths between ends of chosen arrows that are at one place, at most; chosen */
 
 /* A line inside the paint from one place to another.  cost: for how it bends and for paint that is narrow; bow: how far
  * it is from its chord at most, by the length of that. */
@@ -203,6 +204,20 @@ CeldStatus celd_choice_paint_measure (CeldArrowSearch *search, CeldChoicePaint *
 /* The area of unexplained paint near a place, and round a shaft, in square widths. */
 double celd_rest_near (CeldArrowSearch *search, size_t place);
 double celd_rest_round (CeldArrowSearch *search, const CeldShaft *shaft);
+
+/* ------------------------------------------------------------------ search-meetings.c */
+
+/* Does no arrow end near a place, but not at it? */
+bool celd_search_is_apart (const CeldArrowSearch *search, size_t place);
+
+/* Does chosen arrow i pass a place where others end so closely that it may end there, too? */
+bool celd_chosen_passes_end (const CeldArrowSearch *search, size_t i);
+
+/* Does it lead through a place where two others do, too?  Three that cross in one place more likely end there. */
+bool celd_chosen_is_crossed_twice (const CeldArrowSearch *search, size_t i);
+
+/* Does it lie on another one for long?  Then one of them may be part of the other. */
+bool celd_chosen_is_on_another (const CeldArrowSearch *search, size_t i);
 
 /* ------------------------------------------------------------------ search-clear.c */
 

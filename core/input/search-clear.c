@@ -31,14 +31,6 @@
 #define DOT_STRAIGHT       0.6  /* ... and those with dots */
 #define ARROW_PASS_TURN    0.45 /* the same where one of several arrows may pass */
 #define WAY_FROM           5    /* from the end of a line to where its direction is measured */
-#define ONE_PLACE          2    /* between ends of arrows that are at one place, at most, ... */
-#define ARROW_APART        3.5  /* ... and between those that are not, at least */
-#define PASS_APART         2    /* from a line to a place where others end, at least, ... */
-#define PASS_APART_FROM    3    /* ... so far from the ends of the line */
-#define THROUGH            0.8  /* from a line to a place that it leads through ... */
-#define THROUGH_FROM       6    /* ... so far from its ends */
-#define ON_ANOTHER         0.5  /* between lines that lie on each other, ... */
-#define MOST_ON_ANOTHER    6    /* ... for at most so long */
 #define SHORTEST           7    /* length of an arrow */
 #define MOST_OF_ARROW      8    /* cost of an arrow that is clear, ... */
 #define MOST_OF_HEAD       1.2  /* ... of its head, ... */
@@ -60,7 +52,7 @@ static void
 compare_with_graph (Clearness *r, CeldLineArrow *other)
 {
   const CeldArrowSearch *s = r->s;
-  double                 near = ONE_PLACE * s->width + 2;
+  double                 near = CELD_ONE_PLACE * s->width + 2;
 
   for (size_t i = 0; i < s->choice.n; i++)
     for (size_t k = 0; k < r->lines->graph.n_lines; k++)
@@ -127,20 +119,6 @@ is_shown (const Clearness *r, size_t place)
   return s->dot ? bent : !straight;
 }
 
-/* Does no arrow end near a place, but not at it? */
-static bool
-is_apart (const CeldArrowSearch *s, size_t place)
-{
-  for (size_t p = 0; p < s->n_places; p++)
-    {
-      double d = celd_points_apart (s->place[p], s->place[place]);
-
-      if (s->arrows_at[p] && d >= ONE_PLACE * s->width && d < ARROW_APART * s->width)
-        return false;
-    }
-  return true;
-}
-
 /* Does another arrow lead from one of the places of arrow i to the other?  Then it may be one with two heads. */
 static bool
 is_double (const Clearness *r, size_t i)
@@ -158,65 +136,6 @@ is_double (const Clearness *r, size_t i)
             celd_points_apart (s->place[a->place[1]], s->place[b->place[1 - end]]) < most)
           return true;
       }
-  return false;
-}
-
-/* Does an arrow lead through a place, up to a distance, so far from its ends? */
-static bool
-leads_through (const CeldArrowSearch *s, size_t k, size_t place, double distance, double from)
-{
-  const CeldShaft *shaft = celd_chosen_shaft (s, k);
-
-  for (int end = 0; end < 2; end++)
-    if (celd_points_apart (s->place[shaft->place[end]], s->place[place]) < from * s->width)
-      return false;
-  return celd_distance_to_shaft (shaft, s->place[place]) < distance * s->width;
-}
-
-/* Does an arrow pass a place where others end so closely that it may end there, too? */
-static bool
-passes_end (const Clearness *r, size_t i)
-{
-  for (size_t p = 0; p < r->s->n_places; p++)
-    if (r->s->arrows_at[p] && leads_through (r->s, i, p, PASS_APART, PASS_APART_FROM))
-      return true;
-  return false;
-}
-
-/* Does an arrow lead through a place where two others do, too?  Three that cross in one place more likely end
- * there. */
-static bool
-is_crossed_twice (const Clearness *r, size_t i)
-{
-  for (size_t p = 0; p < r->s->n_places; p++)
-    {
-      int n = 0;
-
-      for (size_t k = 0; k < r->s->choice.n && leads_through (r->s, i, p, THROUGH, THROUGH_FROM); k++)
-        n += k != i && leads_through (r->s, k, p, THROUGH, THROUGH_FROM);
-      if (n > 1)
-        return true;
-    }
-  return false;
-}
-
-/* Do two arrows lie on each other for long?  Then one of them may be part of the other. */
-static bool
-is_on_another (const Clearness *r, size_t i)
-{
-  const CeldArrowSearch *s = r->s;
-  const CeldShaft       *a = celd_chosen_shaft (s, i);
-
-  for (size_t k = 0; k < s->choice.n; k++)
-    {
-      const CeldShaft *b = celd_chosen_shaft (s, k);
-      size_t           n = 0;
-
-      for (size_t j = 0; j < a->n && k != i; j++)
-        n += celd_distance_to_shaft (b, a->at[j]) < ON_ANOTHER * s->width;
-      if (n > 1 && (double) (n - 1) * a->length / (double) (a->n - 1) > MOST_ON_ANOTHER * s->width)
-        return true;
-    }
   return false;
 }
 
@@ -286,7 +205,7 @@ is_in_crowd (const Clearness *r, size_t i)
         const size_t *place = celd_chosen_shaft (s, k)->place;
 
         n += fmin (celd_points_apart (s->place[place[0]], tip), celd_points_apart (s->place[place[1]], tip)) <
-             ONE_PLACE * s->width;
+             CELD_ONE_PLACE * s->width;
       }
   return n >= CROWD;
 }
@@ -302,7 +221,7 @@ is_any_seen (const Clearness *r, size_t i)
 
   for (size_t k = 0; k < s->choice.n; k++)
     any |= r->paint.seen[k] >= ARROW_LEAST_OWN &&
-           celd_points_apart (celd_option_place (s, &s->option[s->choice.item[k]], true), tip) < ONE_PLACE * s->width;
+           celd_points_apart (celd_option_place (s, &s->option[s->choice.item[k]], true), tip) < CELD_ONE_PLACE * s->width;
   return any;
 }
 
@@ -310,7 +229,7 @@ is_any_seen (const Clearness *r, size_t i)
 static double
 margin_needed (const Clearness *r, size_t i)
 {
-  int doubts = (r->paint.seen[i] < ARROW_LEAST_OWN) + may_pass (r, i) + is_on_another (r, i);
+  int doubts = (r->paint.seen[i] < ARROW_LEAST_OWN) + may_pass (r, i) + celd_chosen_is_on_another (r->s, i);
 
   if (!is_any_seen (r, i))
     return INFINITY;
@@ -328,8 +247,8 @@ is_explained (const Clearness *r, size_t i)
   double                 most = s->dot ? DOT_MOST_REST : r->margin[i] < CERTAIN_MARGIN ? ARROW_MOST_REST
                                 : CERTAIN_MOST_REST;
 
-  return r->paint.rest[i] <= most && is_apart (s, shaft->place[0]) && is_apart (s, shaft->place[1]) &&
-         !is_crossed_twice (r, i);
+  return r->paint.rest[i] <= most && celd_search_is_apart (s, shaft->place[0]) &&
+         celd_search_is_apart (s, shaft->place[1]) && !celd_chosen_is_crossed_twice (s, i);
 }
 
 static CeldArrowReason
@@ -345,12 +264,12 @@ why_unclear (const Clearness *r, size_t i)
   if (!(s->dot && r->agreed[i]) && (!is_shown (r, shaft->place[0]) || !is_shown (r, shaft->place[1])))
     return CELD_REASON_MEETING;
   if (r->agreed[i])
-    return is_explained (r, i) && !is_on_another (r, i) ? CELD_REASON_NONE : CELD_REASON_MEETING;
+    return is_explained (r, i) && !celd_chosen_is_on_another (s, i) ? CELD_REASON_NONE : CELD_REASON_MEETING;
   if (shaft->length < SHORTEST * s->width)
     return CELD_REASON_SHORT;
   if (o->mark_cost > (s->dot ? MOST_OF_DOT : MOST_OF_HEAD))
     return CELD_REASON_ALIKE;
-  if (o->cost > MOST_OF_ARROW || s->passed[o->shaft] || passes_end (r, i) || !is_explained (r, i) ||
+  if (o->cost > MOST_OF_ARROW || s->passed[o->shaft] || celd_chosen_passes_end (s, i) || !is_explained (r, i) ||
       (s->dot ? celd_rest_round (r->s, shaft) > DOT_ROUND_REST : celd_rest_near (r->s, tail) > TAIL_MOST_REST))
     return CELD_REASON_MEETING;
   if (r->margin[i] < margin_needed (r, i))
