@@ -24,18 +24,29 @@ typedef struct { size_t place[2]; CeldPoint *at; size_t n; double length, cost, 
 /* Cells of paint. */
 typedef struct { uint32_t *cell; size_t n; } CeldPaintPiece;
 
-/* An arrow that may be chosen: a shaft with a head, filled or open, or a dot, at one of its ends.  cost: without what
- * it explains; mark_cost: the part of that for what is not painted of the head or dot. */
-typedef struct { size_t shaft; int end; bool filled; double cost, mark_cost; size_t body, mark; } CeldArrowOption;
+/* An arrow that may be chosen: a shaft with a head, filled or open, or a dot, at one of its ends, or one that fades or
+ * tapers towards it.  cost: without what it explains; mark_cost: the part of that for what is not painted of the head or
+ * dot, or for a weak tail or strong tip; value: of a shaft that fades or tapers, at its tail and tip. */
+typedef struct
+{
+  size_t shaft;
+  int    end;
+  bool   filled;
+  double cost, mark_cost;
+  size_t body, mark;
+  double value[2];
+} CeldArrowOption;
 
 /* The chosen options, and what that costs. */
 typedef struct { size_t item[CELD_MOST_CHOSEN], n; double cost; } CeldArrowChoice;
 
 typedef struct
 {
+  const CeldJoinedLines *lines;
+  const CeldArrowLayer *layer;
   const CeldStrokeMask *mask;
   double                width;   /* of the paint */
-  bool                  dot;     /* arrows have dots, at their nearer ends */
+  bool                  head, dot, fade; /* arrows have heads, or dots at their nearer ends, or fade; else they taper */
   float                *room;    /* of each pixel of the mask: the distance to the edge of the paint */
 
   CeldPoint            *place;   /* where arrows may begin or end */
@@ -43,9 +54,10 @@ typedef struct
   CeldShaft            *shaft;
   size_t                n_shafts, shaft_capacity;
 
-  /* Cells are squares of `step` pixels, and `area` in costs; stamp: of each cell the last outline that has it. */
+  /* Cells are squares of `step` pixels, and `area` in costs; of arrows that fade, too, one for each of some levels of
+   * opacity.  stamp: of each cell the last outline that has it. */
   double                step, per_pixel, area; /* per_pixel: 1 / step */
-  int                   columns, rows;
+  int                   columns, rows, levels;
   uint8_t              *painted;
   uint16_t             *covers;  /* of each cell: how many pieces that are chosen have it */
   uint32_t             *stamp, tick;
@@ -81,6 +93,19 @@ celd_search_cell (const CeldArrowSearch *s, CeldPoint p)
   double x = p.x * s->per_pixel, y = p.y * s->per_pixel;
 
   return x >= 0 && y >= 0 && x < s->columns && y < s->rows ? (size_t) y * (size_t) s->columns + (size_t) x : SIZE_MAX;
+}
+
+/* How many cells there are in all levels, and in one. */
+static inline size_t
+celd_search_plane (const CeldArrowSearch *s)
+{
+  return (size_t) s->columns * (size_t) s->rows;
+}
+
+static inline size_t
+celd_search_cells (const CeldArrowSearch *s)
+{
+  return (size_t) s->levels * celd_search_plane (s);
 }
 
 static inline CeldPoint
@@ -125,6 +150,19 @@ CeldStatus celd_search_shafts_find (CeldArrowSearch *search);
 CeldPoint celd_shaft_way (const CeldShaft *shaft, int end, double from);
 
 double celd_distance_to_shaft (const CeldShaft *shaft, CeldPoint p);
+
+/* ------------------------------------------------------------------ search-profiles.c */
+
+/* How strong the paint is at a point, about 1 where arrows begin: its opacity, or the distance to its edge. */
+double celd_search_strength (const CeldArrowSearch *search, CeldPoint p);
+
+/* A point of a shaft; fall: how strong the paint is there at most of an arrow that only gets weaker towards either
+ * end. */
+typedef struct { CeldPoint at; double fall[2]; } CeldShaftSample;
+
+/* *sample is to be freed by the caller. */
+CeldStatus celd_shaft_samples_new (const CeldArrowSearch *search, const CeldShaft *shaft, CeldShaftSample **sample,
+                                   int *n);
 
 /* ------------------------------------------------------------------ search-heads.c */
 
@@ -207,6 +245,10 @@ double celd_rest_round (CeldArrowSearch *search, const CeldShaft *shaft);
 
 /* ------------------------------------------------------------------ search-meetings.c */
 
+/* Of arrows that fade or taper: does something show that arrows end at a place?  One of them cannot go on straight
+ * there, or values jump from weak to strong, or two weak ends meet. */
+bool celd_search_shows_end (const CeldArrowSearch *search, size_t place);
+
 /* Does no arrow end near a place, but not at it? */
 bool celd_search_is_apart (const CeldArrowSearch *search, size_t place);
 
@@ -228,10 +270,10 @@ CeldStatus celd_search_clear_find (CeldArrowSearch *search, const CeldJoinedLine
 
 /* ------------------------------------------------------------------ search-arrows.c */
 
-/* The arrows of lines->mask, and a graph whose lines they are; the caller clears and frees both in any case.  other:
- * the arrows of the lines as they are read one by one, of which some become unclear.  *arrows is NULL if there may be
- * too many. */
-CeldStatus celd_search_arrows_read (const CeldJoinedLines *lines, CeldLineArrow *other, CeldStrokeGraph *graph,
-                                    CeldLineArrow **arrows);
+/* The arrows of lines->mask, whose paint is in a layer, and a graph whose lines they are; the caller clears and frees
+ * both in any case.  other: the arrows of the lines as they are read one by one, of which some become unclear.  *arrows
+ * is NULL if there may be too many. */
+CeldStatus celd_search_arrows_read (const CeldJoinedLines *lines, const CeldArrowLayer *layer, CeldLineArrow *other,
+                                    CeldStrokeGraph *graph, CeldLineArrow **arrows);
 
 #endif

@@ -135,33 +135,34 @@ static void
 leave_contradictions (const CeldJoinedLines *s, CeldLineArrow *one, const CeldJoinedLines *other, CeldLineArrow *found)
 {
   double near = ENDS_ALIKE * s->graph.width + 2;
-  bool   dot = s->style == CELD_ARROW_DOT;
+  bool   head = s->style == CELD_ARROW_HEAD;
 
   for (size_t i = 0; i < s->graph.n_lines; i++)
     for (size_t k = 0; k < other->graph.n_lines && !one[i].unclear; k++)
-      if ((!dot || !found[k].unclear) && celd_points_apart (one[i].nearer, found[k].farther) < near &&
+      if ((head || !found[k].unclear) && celd_points_apart (one[i].nearer, found[k].farther) < near &&
           celd_points_apart (one[i].farther, found[k].nearer) < near)
         one[i].unclear = found[k].unclear = CELD_REASON_MEETING;
-      else if (!dot && celd_points_apart (one[i].nearer, found[k].nearer) < near &&
+      else if (head && celd_points_apart (one[i].nearer, found[k].nearer) < near &&
                celd_points_apart (one[i].farther, found[k].farther) < near)
         one[i].unclear = found[k].unclear;
 }
 
-/* Reads lines with heads or dots in both ways, unless others hide some of their paint.  The lines become those of the
- * way that finds more clear arrows. */
+/* Reads lines in both ways, unless others hide some of their paint.  The lines become those of the way that finds more
+ * clear arrows, or always those of the search if they fade or taper. */
 static CeldStatus
-read_marks (CeldJoinedLines *s, CeldLineArrow **arrows)
+read_both_ways (CeldJoinedLines *s, const CeldArrowLayer *layer, CeldLineArrow **arrows)
 {
-  CeldJoinedLines other = *s;
+  bool            profiles = s->style == CELD_ARROW_FADE || s->style == CELD_ARROW_TAPER;
   CeldLineArrow  *found = NULL;
-  CeldStatus      status = celd_joined_heads_read (s, arrows);
+  CeldStatus      status = profiles ? celd_joined_profiles_read (s, layer, arrows) : celd_joined_heads_read (s, arrows);
+  CeldJoinedLines other = *s;
 
   if (status != CELD_OK || s->cover)
     return status;
-  status = celd_search_arrows_read (s, *arrows, &other.graph, &found);
+  status = celd_search_arrows_read (s, layer, *arrows, &other.graph, &found);
   if (status == CELD_OK && found)
     leave_contradictions (s, *arrows, &other, found);
-  if (status == CELD_OK && found && count_clear (&other, found) > count_clear (s, *arrows))
+  if (status == CELD_OK && found && (profiles || count_clear (&other, found) > count_clear (s, *arrows)))
     {
       CeldStrokeGraph graph = s->graph;
       CeldLineArrow  *before = *arrows;
@@ -185,9 +186,8 @@ read_lines (CeldJoinedLines *s, const CeldArrowLayer *layer, CeldRelations *rela
             CeldProblems *doubts, int *n)
 {
   bool           crack = celd_arrow_is_blue (s->stroke, layer);
-  bool           profiles = s->style == CELD_ARROW_FADE || s->style == CELD_ARROW_TAPER;
   CeldLineArrow *arrows;
-  CeldStatus     status = profiles ? celd_joined_profiles_read (s, layer, &arrows) : read_marks (s, &arrows);
+  CeldStatus     status = read_both_ways (s, layer, &arrows);
 
   for (size_t k = 0; k < s->graph.n_lines && status == CELD_OK && s->hidden; k++)
     if (is_as_short_as_head (s, &arrows[k]))

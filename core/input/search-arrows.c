@@ -179,10 +179,18 @@ read_choice (CeldArrowSearch *s, const CeldJoinedLines *lines, CeldLineArrow *ot
 }
 
 CeldStatus
-celd_search_arrows_read (const CeldJoinedLines *lines, CeldLineArrow *other, CeldStrokeGraph *graph,
-                         CeldLineArrow **arrows)
+celd_search_arrows_read (const CeldJoinedLines *lines, const CeldArrowLayer *layer, CeldLineArrow *other,
+                         CeldStrokeGraph *graph, CeldLineArrow **arrows)
 {
-  CeldArrowSearch s = { .mask = &lines->mask, .width = lines->graph.width, .dot = lines->style == CELD_ARROW_DOT };
+  CeldArrowSearch s = {
+    .lines = lines,
+    .layer = layer,
+    .mask  = &lines->mask,
+    .width = lines->graph.width,
+    .head  = lines->style == CELD_ARROW_HEAD,
+    .dot   = lines->style == CELD_ARROW_DOT,
+    .fade  = lines->style == CELD_ARROW_FADE,
+  };
   bool            many = false;
   CeldStatus      status = find_shafts (&s, &many);
 

@@ -37,7 +37,7 @@ passes (const CeldArrowSearch *s, const CeldShaft *shaft, CeldPoint place)
 CeldStatus
 celd_search_choice_new (CeldArrowSearch *s)
 {
-  size_t n = (size_t) s->columns * (size_t) s->rows;
+  size_t n = celd_search_cells (s);
 
   s->chosen     = celd_alloc0 (s->n_options + 1, sizeof *s->chosen);
   s->banned     = celd_alloc0 (s->n_options + 1, sizeof *s->banned);

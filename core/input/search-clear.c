@@ -4,7 +4,7 @@
  * explained, and something shows that it ends where it does.  How large a margin is asked for depends on what else
  * speaks against the arrow, or for it: a head that others hide, a line that may go on, others that end where it does.
  * Where the graph of the lines gives the same arrow (joined-heads.c), hardly any margin is needed: both are seldom
- * wrong in the same way.
+ * wrong in the same way.  Arrows that fade or taper have no heads that others hide, so that less is asked for.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -32,6 +32,9 @@
 #define ARROW_PASS_TURN    0.45 /* the same where one of several arrows may pass */
 #define WAY_FROM           5    /* from the end of a line to where its direction is measured */
 #define SHORTEST           7    /* length of an arrow */
+#define PROFILE_MARGIN     2    /* of an arrow that fades or tapers, ... */
+#define PROFILE_MOST_REST  1.5  /* ... and area of unexplained paint next to it */
+#define MOST_OF_VALUES     0.8  /* cost of its values at its ends */
 #define MOST_OF_ARROW      8    /* cost of an arrow that is clear, ... */
 #define MOST_OF_HEAD       1.2  /* ... of its head, ... */
 #define MOST_OF_DOT        0.5  /* ... and of its dot */
@@ -251,6 +254,30 @@ is_explained (const Clearness *r, size_t i)
          celd_search_is_apart (s, shaft->place[1]) && !celd_chosen_is_crossed_twice (s, i);
 }
 
+/* The same for an arrow that fades or tapers. */
+static CeldArrowReason
+why_profile_unclear (const Clearness *r, size_t i)
+{
+  const CeldArrowSearch *s = r->s;
+  const CeldArrowOption *o = &s->option[s->choice.item[i]];
+  const CeldShaft       *shaft = &s->shaft[o->shaft];
+
+  if (is_double (r, i))
+    return CELD_REASON_ALIKE;
+  if (r->paint.rest[i] > PROFILE_MOST_REST || s->passed[o->shaft] || !celd_search_is_apart (s, shaft->place[0]) ||
+      !celd_search_is_apart (s, shaft->place[1]))
+    return CELD_REASON_MEETING;
+  if (r->agreed[i])
+    return CELD_REASON_NONE;
+  if (o->mark_cost > MOST_OF_VALUES)
+    return CELD_REASON_ALIKE;
+  if (shaft->length < SHORTEST * s->width)
+    return CELD_REASON_SHORT;
+  return !celd_search_shows_end (s, shaft->place[0]) || !celd_search_shows_end (s, shaft->place[1]) ||
+         celd_chosen_is_crossed_twice (s, i) || celd_chosen_passes_end (s, i) || celd_chosen_is_on_another (s, i) ||
+         r->margin[i] < PROFILE_MARGIN ? CELD_REASON_MEETING : CELD_REASON_NONE;
+}
+
 static CeldArrowReason
 why_unclear (const Clearness *r, size_t i)
 {
@@ -259,6 +286,8 @@ why_unclear (const Clearness *r, size_t i)
   const CeldShaft       *shaft = &s->shaft[o->shaft];
   size_t                 tail = shaft->place[1 - o->end];
 
+  if (!s->head && !s->dot)
+    return why_profile_unclear (r, i);
   if (is_double (r, i))
     return CELD_REASON_ALIKE;
   if (!(s->dot && r->agreed[i]) && (!is_shown (r, shaft->place[0]) || !is_shown (r, shaft->place[1])))

@@ -1,7 +1,9 @@
 /* What of the paint each arrow that may be chosen explains.
  *
  * The paint is divided into square cells of a fifth of its width.  A shaft explains those near its line; a head
- * those near its barbs, or in its triangle; a dot those in a disc.
+ * those near its barbs, or in its triangle; a dot those in a disc.  A shaft that tapers explains those that are as near
+ * its line as it is wide there; of paint that fades there are cells in several levels, of which a shaft explains those
+ * up to its opacity.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -20,16 +22,31 @@
 #define SHAFT_COST   16   /* of what a shaft costs */
 #define BOW_COST     0.3  /* of a bow of this part of the length; of others by their square: */
 #define USUAL_BOW    0.06
+#define COVER_LEVELS 4    /* of opacity, ... */
+#define LEVEL_MORE   0.1  /* ... and opacity more that a shaft explains */
+#define THICK        1.12 /* distance from the middle of a line of strength 1 to the edge of its paint */
+#define LEAST_TAIL   0.7  /* strength of a tail, at least, ... */
+#define TAIL_FROM    4    /* ... so many samples from its end, where others may lie on it, ... */
+#define TIP_OF_TAIL  0.4  /* ... and of a tip, as a part of that of the tail, at most; ... */
+#define VALUE_COST   10   /* ... and what the difference costs */
 #define OPEN_BACK    3.2  /* from the tip to where the direction of a head is measured, if it is open, ... */
 #define FILLED_BACK  4    /* ... and if it is filled */
 
-/* Cells that are gathered for a piece; own: of each cell, is it of the shaft whose heads are looked for? */
-typedef struct { CeldArrowSearch *s; uint32_t *cell; size_t n; uint8_t *own; } Gather;
+/* Cells that are gathered for a piece, up to a level.  own: of each cell, is it of the shaft whose heads are looked
+ * for? */
+typedef struct { CeldArrowSearch *s; uint32_t *cell; size_t n; int levels; uint8_t *own; } Gather;
 
 static CeldPoint
 centre_of (const CeldArrowSearch *s, int x, int y)
 {
   return (CeldPoint) { (x + 0.5) * s->step, (y + 0.5) * s->step };
+}
+
+/* Is there paint of a level at a point? */
+static bool
+is_painted (const CeldArrowSearch *s, CeldPoint p, int level)
+{
+  return celd_search_room (s, p) > 0 && (!level || celd_search_strength (s, p) >= (double) level / s->levels);
 }
 
 CeldStatus
@@ -39,18 +56,21 @@ celd_search_cells_new (CeldArrowSearch *s)
 
   s->step    = fmax (1, s->width / COVER_CELLS);
   s->per_pixel = 1 / s->step;
-  s->area    = UNEXPLAINED * s->step * s->step / (s->width * s->width);
+  s->levels  = s->fade ? COVER_LEVELS : 1;
+  s->area    = UNEXPLAINED * s->step * s->step / (s->width * s->width) / s->levels;
   s->columns = (int) (s->mask->width / s->step) + 1;
   s->rows    = (int) (s->mask->height / s->step) + 1;
-  n          = (size_t) s->columns * (size_t) s->rows;
+  n          = celd_search_cells (s);
   s->painted = celd_alloc0 (n, sizeof *s->painted);
   s->covers  = celd_alloc0 (n, sizeof *s->covers);
   s->stamp   = celd_alloc0 (n, sizeof *s->stamp);
   if (!s->painted || !s->covers || !s->stamp)
     return CELD_NO_MEMORY;
-  for (int y = 0; y < s->rows; y++)
-    for (int x = 0; x < s->columns; x++)
-      s->painted[(size_t) y * (size_t) s->columns + (size_t) x] = celd_search_room (s, centre_of (s, x, y)) > 0;
+  for (int level = 0; level < s->levels; level++)
+    for (int y = 0; y < s->rows; y++)
+      for (int x = 0; x < s->columns; x++)
+        s->painted[(size_t) level * celd_search_plane (s) + (size_t) y * (size_t) s->columns + (size_t) x] =
+          is_painted (s, centre_of (s, x, y), level);
   return CELD_OK;
 }
 
@@ -90,15 +110,17 @@ gather (Gather *g, const CeldPoint *corner, int n, double reach)
   for (int y = (int) fmax (0, (low.y - reach) / s->step); y <= fmin (s->rows - 1, (high.y + reach) / s->step); y++)
     for (int x = (int) fmax (0, (low.x - reach) / s->step); x <= fmin (s->columns - 1, (high.x + reach) / s->step); x++)
       {
-        size_t    c = (size_t) y * (size_t) s->columns + (size_t) x;
+        size_t    c = (size_t) y * (size_t) s->columns + (size_t) x, end = (size_t) g->levels * celd_search_plane (s);
         CeldPoint p = centre_of (s, x, y);
 
-        if (s->painted[c] && s->stamp[c] != s->tick &&
+        if (s->painted[c] &&
             (n == 3 ? outside_triangle (p, corner) : celd_distance_to_part (p, corner[0], corner[n - 1])) <= reach)
-          {
-            s->stamp[c]     = s->tick;
-            g->cell[g->n++] = (uint32_t) c;
-          }
+          for (; c < end && s->painted[c]; c += celd_search_plane (s))
+            if (s->stamp[c] != s->tick)
+              {
+                s->stamp[c]     = s->tick;
+                g->cell[g->n++] = (uint32_t) c;
+              }
       }
 }
 
@@ -160,13 +182,12 @@ shaft_cost (const CeldShaft *shaft)
   return ARROW_COST + SHAFT_COST * shaft->cost + BOW_COST * bow * bow;
 }
 
+/* Adds an option, whose cost is found. */
 static CeldStatus
-add_option (CeldArrowSearch *s, size_t shaft, int end, bool filled, double mark_cost, size_t body, size_t mark)
+add_option (CeldArrowSearch *s, CeldArrowOption option)
 {
-  double cost = shaft_cost (&s->shaft[shaft]) + mark_cost;
-
-  return celd_append (s->option, s->n_options, s->option_capacity,
-                      ((CeldArrowOption) { shaft, end, filled, cost, mark_cost, body, mark }));
+  option.cost = shaft_cost (&s->shaft[option.shaft]) + option.mark_cost;
+  return celd_append (s->option, s->n_options, s->option_capacity, option);
 }
 
 static void
@@ -194,7 +215,8 @@ add_heads_at (Gather *g, size_t k, int end, CeldOutlineKind kind, size_t body)
       gather_mark (g, &head[i], way);
       status = piece_from (g, &mark);
       if (status == CELD_OK)
-        status = add_option (s, k, end, filled, head[i].cost, body, mark);
+        status = add_option (s, (CeldArrowOption) { .shaft = k, .end = end, .filled = filled, .mark_cost = head[i].cost,
+                                                    .body = body, .mark = mark });
     }
   return status;
 }
@@ -236,9 +258,53 @@ add_dots (Gather *g, double *cost)
         {
           size_t place = s->shaft[k].place[end];
 
-          status = add_option (s, k, end, false, cost[place], body, place);
+          status = add_option (s, (CeldArrowOption) { .shaft = k, .end = end, .mark_cost = cost[place], .body = body,
+                                                    .mark = place });
         }
     }
+  return status;
+}
+
+/* Gathers what a shaft explains that gets weaker towards one of its ends. */
+static void
+gather_profile (Gather *g, const CeldShaft *shaft, const CeldShaftSample *sample, int n, int end)
+{
+  CeldArrowSearch *s = g->s;
+
+  start (g);
+  for (int i = 0; i <= n; i++)
+    {
+      double    fall = sample[i < n ? i : n - 1].fall[end];
+      CeldPoint from = i ? sample[i - 1].at : shaft->at[0], to = i < n ? sample[i].at : shaft->at[shaft->n - 1];
+
+      g->levels = s->fade ? (int) fmin (s->levels, 1 + floor ((fall + LEVEL_MORE) * s->levels)) : 1;
+      gather (g, (CeldPoint[]) { from, to }, 2, (s->fade ? BODY : THICK * fall) * s->width + MORE_BODY);
+    }
+  g->levels = 1;
+}
+
+/* The options of a shaft that fades or tapers towards either end.  nothing: a piece without paint. */
+static CeldStatus
+add_profiles (Gather *g, size_t k, size_t nothing)
+{
+  CeldArrowSearch *s = g->s;
+  CeldShaftSample *sample;
+  int              n;
+  CeldStatus       status = celd_shaft_samples_new (s, &s->shaft[k], &sample, &n);
+
+  for (int end = 0; end < 2 && status == CELD_OK; end++)
+    {
+      int             off = (int) fmin (TAIL_FROM, 0.25 * n);
+      double          tail = sample[end ? off : n - 1 - off].fall[end], tip = sample[end ? n - 1 : 0].fall[end];
+      CeldArrowOption option = { .shaft = k, .end = end, .mark = nothing, .value = { tail, tip } };
+
+      option.mark_cost = VALUE_COST * (fmax (0, LEAST_TAIL - tail) + fmax (0, tip - TIP_OF_TAIL * tail));
+      gather_profile (g, &s->shaft[k], sample, n, end);
+      status = piece_from (g, &option.body);
+      if (status == CELD_OK)
+        status = add_option (s, option);
+    }
+  celd_free (sample);
   return status;
 }
 
@@ -246,7 +312,7 @@ add_dots (Gather *g, double *cost)
 static CeldStatus
 index_pieces (CeldArrowSearch *s)
 {
-  size_t n = (size_t) s->columns * (size_t) s->rows, all = 0;
+  size_t n = celd_search_cells (s), all = 0;
 
   s->first = celd_alloc0 (n + 2, sizeof *s->first);
   for (size_t k = 0; k < s->n_pieces; k++)
@@ -271,15 +337,19 @@ index_pieces (CeldArrowSearch *s)
 CeldStatus
 celd_search_options_new (CeldArrowSearch *s)
 {
-  size_t     n = (size_t) s->columns * (size_t) s->rows;
-  Gather     g = { .s = s, .cell = celd_alloc (n, sizeof *g.cell), .own = celd_alloc0 (n, sizeof *g.own) };
+  size_t     n = celd_search_cells (s), nothing = 0;
+  Gather     g = { .s = s, .levels = 1, .cell = celd_alloc (n, sizeof *g.cell), .own = celd_alloc0 (n, sizeof *g.own) };
   double    *cost = celd_alloc (s->n_places + 1, sizeof *cost);
   CeldStatus status = g.cell && g.own && cost ? CELD_OK : CELD_NO_MEMORY;
 
   if (status == CELD_OK && s->dot)
     status = add_dots (&g, cost);
-  for (size_t k = 0; k < s->n_shafts && status == CELD_OK && !s->dot; k++)
+  for (size_t k = 0; k < s->n_shafts && status == CELD_OK && s->head; k++)
     status = add_heads (&g, k);
+  if (status == CELD_OK && !s->head && !s->dot)
+    status = piece_from (&g, &nothing);
+  for (size_t k = 0; k < s->n_shafts && status == CELD_OK && !s->head && !s->dot; k++)
+    status = add_profiles (&g, k, nothing);
   if (status == CELD_OK)
     status = index_pieces (s);
   celd_free (g.cell);

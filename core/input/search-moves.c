@@ -317,7 +317,7 @@ celd_search_best (CeldArrowSearch *s)
   CeldArrowChoice nothing = s->choice, open;
   CeldStatus      status;
 
-  if (s->dot)
+  if (!s->head)
     return find_best (s);
   ban_heads (s, true, true);
   status = find_best (s);

@@ -2,7 +2,8 @@
  *
  * The ends of traced lines are led on straight: where several meet, and at the tips of heads that fit there, arrows
  * may end (search-votes.c).  Others may at free ends of the paint, at corners, behind wide places, and where there is a
- * dot.  Too many places do no harm but take time; of places near each other the first is kept.
+ * dot; those that fade or taper also where lines get stronger at once, and where they are divided.  Too many places do
+ * no harm but take time; of places near each other the first is kept.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -22,6 +23,9 @@
 #define PLACE_WIDE    0.75 /* distance from the edge at a wide place, ... */
 #define NARROW        0.5  /* ... and behind it */
 #define PLACE_BLOB    0.66 /* distance from the edge in the middle of a dot */
+#define JUMP          0.3  /* by which strength changes at once, ... */
+#define JUMP_FROM     0.5  /* ... from so far on one side to the other, ... */
+#define JUMP_TO       1.5  /* ... where that is the mean from there up to here */
 #define MOST_ARMS     600  /* ends of lines that are led on: more are a drawing */
 
 typedef struct
@@ -151,7 +155,7 @@ add_free_ends (PlaceBuild *b)
     {
       const CeldStrokeArm *arm = &b->arm[i];
       CeldPoint            node = b->raw.node[b->raw.line[arm->line].node[arm->end]].at;
-      bool                 fat = !b->s->dot && celd_search_room (b->s, node) > FAT * w;
+      bool                 fat = b->s->head && celd_search_room (b->s, node) > FAT * w;
       double               length, last;
 
       if (!is_free (b, arm, &length) || (length < CELD_ARM_LONG * w && !fat && !goes_on (b, arm)))
@@ -286,6 +290,62 @@ add_blobs (PlaceBuild *b, const CeldStrokeLine *line)
   return status;
 }
 
+/* ------------------------------------------------------------------ of arrows that fade or taper */
+
+/* By how much stronger a line is behind a point than before it. */
+static double
+jump_at (const PlaceBuild *b, const CeldStrokeLine *line, size_t i)
+{
+  size_t from = (size_t) ceil (JUMP_FROM * b->s->width), to = (size_t) ceil (JUMP_TO * b->s->width);
+  double sum = 0;
+
+  for (size_t k = from; k <= to; k++)
+    sum += celd_search_strength (b->s, line->at[i + k]) - celd_search_strength (b->s, line->at[i - k]);
+  return sum / (double) (to - from + 1);
+}
+
+/* Where lines get stronger or weaker at once: half a width from there the stronger arrow ends, whose end is round. */
+static CeldStatus
+add_jumps (PlaceBuild *b, const CeldStrokeLine *line)
+{
+  size_t     reach = (size_t) ceil (JUMP_TO * b->s->width), off = (size_t) (0.5 * b->s->width);
+  double    *jump = celd_alloc0 (line->n, sizeof *jump);
+  CeldStatus status = jump ? CELD_OK : CELD_NO_MEMORY;
+
+  for (size_t i = reach; i + reach < line->n && jump; i++)
+    jump[i] = jump_at (b, line, i);
+  for (size_t i = reach; i + reach < line->n && status == CELD_OK; i++)
+    {
+      bool most = fabs (jump[i]) > JUMP;
+
+      for (size_t k = i - reach; k <= i + reach && most; k++)
+        most = fabs (jump[k]) < fabs (jump[i]) || (fabs (jump[k]) <= fabs (jump[i]) && k >= i);
+      if (most)
+        status = add_place (b, line->at[jump[i] > 0 ? i + off : i - off]);
+    }
+  celd_free (jump);
+  return status;
+}
+
+/* The jumps, and the ends of the lines that are divided where two arrows meet. */
+static CeldStatus
+add_changes (PlaceBuild *b)
+{
+  const CeldJoinedLines *lines = b->s->lines;
+  CeldStatus             status = CELD_OK;
+
+  for (size_t k = 0; k < b->raw.n_lines && status == CELD_OK; k++)
+    status = add_jumps (b, &b->raw.line[k]);
+  for (size_t i = 0; i < 2 * lines->graph.n_lines && status == CELD_OK; i++)
+    {
+      CeldPoint place;
+
+      celd_joined_place (lines, i, &place);
+      status = add_place (b, place);
+    }
+  return status;
+}
+
 /* ------------------------------------------------------------------ all places */
 
 static CeldStatus
@@ -299,7 +359,9 @@ find_places (PlaceBuild *b)
     status = add_meetings (b);
   if (status == CELD_OK)
     status = add_free_ends (b);
-  if (status == CELD_OK && !b->s->dot)
+  if (status == CELD_OK && !b->s->head && !b->s->dot)
+    status = add_changes (b);
+  if (status == CELD_OK && b->s->head)
     status = add_narrows (b);
   for (size_t k = 0; k < b->raw.n_lines && status == CELD_OK; k++)
     status = add_corners (b, &b->raw.line[k]);

@@ -14,6 +14,13 @@
 #define REST_REACH 1.5  /* from a line to unexplained paint round it, ... */
 #define REST_ENDS  3.5  /* ... and from its ends */
 
+/* Of a cell, in square widths. */
+static double
+cell_area (const CeldArrowSearch *s)
+{
+  return s->step * s->step / (s->width * s->width) / s->levels;
+}
+
 /* Adds `more` to the count of each cell that heads or dots have which are where that of arrow i is. */
 static void
 count_marks (const CeldArrowSearch *s, size_t i, uint16_t *count, int more)
@@ -35,9 +42,9 @@ count_marks (const CeldArrowSearch *s, size_t i, uint16_t *count, int more)
 static CeldStatus
 find_own (CeldArrowSearch *s, CeldChoicePaint *paint)
 {
-  size_t    n = (size_t) s->columns * (size_t) s->rows;
+  size_t    n = celd_search_cells (s);
   uint16_t *all = celd_alloc0 (n, sizeof *all), *here = celd_alloc0 (n, sizeof *here);
-  double    area = s->step * s->step / (s->width * s->width);
+  double    area = cell_area (s);
 
   for (size_t i = 0; all && here && i < s->choice.n; i++)
     for (size_t k = 0; k < s->piece[s->option[s->choice.item[i]].mark].n; k++)
@@ -64,6 +71,17 @@ find_own (CeldArrowSearch *s, CeldChoicePaint *paint)
   return all && here ? CELD_OK : CELD_NO_MEMORY;
 }
 
+/* In how many levels of a cell there is paint that nothing explains. */
+static int
+bare_levels (const CeldArrowSearch *s, size_t c)
+{
+  int n = 0;
+
+  for (; c < celd_search_cells (s); c += celd_search_plane (s))
+    n += s->painted[c] && !s->covers[c];
+  return n;
+}
+
 /* Finds the unexplained paint that is nearer to each arrow than to others. */
 static void
 find_rest (CeldArrowSearch *s, CeldChoicePaint *paint)
@@ -75,7 +93,7 @@ find_rest (CeldArrowSearch *s, CeldChoicePaint *paint)
         CeldPoint p = { (x + 0.5) * s->step, (y + 0.5) * s->step };
         double    least = INFINITY;
 
-        if (!s->painted[c] || s->covers[c] || celd_search_room (s, p) <= REST_ROOM * s->width)
+        if (!bare_levels (s, c) || celd_search_room (s, p) <= REST_ROOM * s->width)
           continue;
         for (size_t k = 0; k < s->choice.n; k++)
           {
@@ -87,7 +105,7 @@ find_rest (CeldArrowSearch *s, CeldChoicePaint *paint)
                 nearest = k;
               }
           }
-        paint->rest[nearest] += s->step * s->step / (s->width * s->width);
+        paint->rest[nearest] += bare_levels (s, c) * cell_area (s);
       }
 }
 

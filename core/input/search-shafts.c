@@ -26,6 +26,7 @@
 #define BEND_COST       6    /* of the square of a turn in radians, by the length of a step */
 #define BARE_COST       1.2  /* of what is not painted, by its length */
 #define SHAFT_ROOM      0.36 /* to the edge of the paint; less of it, ... */
+#define THIN_ROOM       0.15 /* ... or of arrows that taper, ... */
 #define LESS_ROOM       0.6  /* ... and so many pixels less, costs something: */
 #define ROOM_COST       6    /* the square of what is missing, by length */
 #define SAMPLE          0.34 /* between samples of the paint */
@@ -69,7 +70,7 @@ paint_cost (const CeldArrowSearch *s, CeldPoint a, CeldPoint b)
   for (int i = 0; i < n; i++)
     {
       double room = celd_search_room (s, celd_search_between (a, b, (i + 0.5) / n));
-      double missing = SHAFT_ROOM - (room + LESS_ROOM) / w;
+      double missing = (s->head || s->dot || s->fade ? SHAFT_ROOM : THIN_ROOM) - (room + LESS_ROOM) / w;
 
       if (room <= 0)
         cost += BARE_COST * length / n;

@@ -389,6 +389,37 @@ a_hub (void)
   CHECK (right >= 0.95 * 60 * 7);
 }
 
+/* Two hubs with an arrow from one to the other, and four more at each, which begin or end there as it comes: many are in
+ * line with others, and which of them go on shows only in all together. */
+static void
+two_hubs (void)
+{
+  uint32_t state = 53;
+  int      right = 0;
+
+  for (int i = 0; i < 60; i++)
+    {
+      CeldArrowStyle style = i % 2 ? CELD_ARROW_FADE : CELD_ARROW_TAPER;
+      double         w = random_between (&state, 4, 6), turn = random_between (&state, 0, 6.28);
+      Point          hub[2];
+      Arrow          a[9];
+
+      for (int k = 0; k < 2; k++)
+        hub[k] = (Point) { SIZE / 2. + (2 * k - 1) * 50 * cos (turn), SIZE / 2. + (2 * k - 1) * 50 * sin (turn) };
+      a[8] = through (hub[0], turn, 100, 0, w, style, true);
+      for (int k = 0; k < 8; k++)
+        {
+          bool   inwards = check_random (&state, 2);
+          double angle = turn + (k < 4 ? 0 : 3.1416) + (k % 4 + 1) * 1.2566 + random_between (&state, -0.15, 0.15);
+
+          a[k] = through (hub[k / 4], angle + (inwards ? 3.1416 : 0), random_between (&state, 70, 85), inwards, w, style,
+                          true);
+        }
+      right += read_all (a, 9, style, &state);
+    }
+  CHECK (right >= 0.8 * 60 * 9);
+}
+
 /* Lines that lead to one place at 30 degrees look like a disc there; the dots of all are at their other ends. */
 static void
 dots_round_a_hub (void)
@@ -489,6 +520,7 @@ main (void)
   RUN (in_one_line);
   RUN (a_star_that_leads_on);
   RUN (a_hub);
+  RUN (two_hubs);
   RUN (dots_round_a_hub);
   RUN (heads_round_a_hub);
   RUN (crossed_on_the_way);
