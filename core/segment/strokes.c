@@ -331,7 +331,7 @@ celd_stroke_piece_remove (CeldSegmentTask *task, const CeldStrokePiece *piece)
 CeldStatus
 celd_spills_remove (const CeldHost *host, CeldSegmentTask *task)
 {
-  const uint32_t *component = task->bridged_component ? task->bridged_component : task->basins->component;
+  const uint32_t *component = task->basins->component;
   CeldStrokes    *strokes = &task->painted;
   bool           *has_spill;
   CeldStatus      status = celd_strokes_new (task, NULL, strokes);
