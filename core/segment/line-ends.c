@@ -15,6 +15,7 @@
 #include "image/image.h"
 #include "segment/bridges.h"
 #include "segment/closures.h"
+#include "segment/tip-set.h"
 
 #include <math.h>
 #include <string.h>
@@ -38,9 +39,6 @@
 #define BROAD_LINE   12   /* pixels: finer lines have no corners, but steps of pixels (chosen) */
 #define FIT_AGREES   0.96 /* cosine of the angle between a fit and the sides of a line that was cut off: 16 degrees */
 #define BESIDE_CUT   1.25 /* line widths: so near to such an end is no other one */
-#define END_CELL     16   /* pixels: side of the cells in which found ends are looked up */
-
-#define NO_TIP UINT32_MAX
 
 #define PIXEL_INK   1 /* a pixel of ink */
 #define PIXEL_FOLLOWED 2 /* its upper edge has been followed */
@@ -60,13 +58,9 @@ typedef struct
   Scale            scale[MOST_FINER + SCALES]; /* the finest first */
   int              n_scales;
   CeldLineEnd      end[MOST_FINER + 1]; /* for fitting: [0] the strokes, [1] .. finer lines */
-  CeldTip         *tip;
-  uint32_t        *before;      /* of tip k: the one before it in its cell, or NO_TIP */
-  size_t           n_tips;
-  uint32_t        *latest;      /* of each cell: the last tip found there, or NO_TIP */
-  int              columns, rows;
-  size_t           first_cut, end_cuts;         /* of the tips: those at which the current outline was cut off */
-  size_t           corner_capacity, tip_capacity, before_capacity;
+  CeldTipSet       found;
+  size_t           first_cut, end_cuts;         /* of what is found: those at which the current outline was cut off */
+  size_t           corner_capacity;
 } LineEndSearch;
 
 /* ------------------------------------------------------------------ outlines */
@@ -87,20 +81,6 @@ read_mask (LineEndSearch *s)
         mask[x] = !celd_is_paper (ink[x]);
     }
   return CELD_OK;
-}
-
-static CeldStatus
-make_cells (LineEndSearch *s)
-{
-  size_t n;
-
-  s->columns = (s->width + END_CELL - 1) / END_CELL;
-  s->rows    = (s->height + END_CELL - 1) / END_CELL;
-  n          = (size_t) s->columns * (size_t) s->rows;
-  s->latest  = celd_alloc (n, sizeof *s->latest);
-  for (size_t k = 0; k < n && s->latest; k++)
-    s->latest[k] = NO_TIP;
-  return s->latest ? CELD_OK : CELD_NO_MEMORY;
 }
 
 static uint8_t *
@@ -149,59 +129,14 @@ sharpness (const LineEndSearch *s, size_t i, size_t arm, CeldPlace *middle, doub
   return length > 0 ? *span / length : 1;
 }
 
-/* The column or row of cells of a coordinate, clamped to the picture. */
-static int
-cell_along (double at, int n)
-{
-  return at < END_CELL ? 0 : at < (double) END_CELL * n ? (int) (at / END_CELL) : n - 1;
-}
-
-static uint32_t *
-latest_at (const LineEndSearch *s, CeldTip tip)
-{
-  size_t row = (size_t) cell_along (tip.y, s->rows), column = (size_t) cell_along (tip.x, s->columns);
-
-  return &s->latest[row * (size_t) s->columns + column];
-}
-
-/* Has this end been found at another scale?  The end on the other side of a narrow gap has the opposite direction. */
-static bool
-is_known (const LineEndSearch *s, CeldTip end, double width)
-{
-  double same = SAME_END * width + 1;
-  int    right = cell_along (end.x + same, s->columns), bottom = cell_along (end.y + same, s->rows);
-
-  for (int row = cell_along (end.y - same, s->rows); row <= bottom; row++)
-    for (int column = cell_along (end.x - same, s->columns); column <= right; column++)
-      for (uint32_t i = s->latest[(size_t) row * (size_t) s->columns + (size_t) column]; i != NO_TIP; i = s->before[i])
-        if (hypot (s->tip[i].x - end.x, s->tip[i].y - end.y) < same &&
-            s->tip[i].dx * end.dx + s->tip[i].dy * end.dy > 0)
-          return true;
-  return false;
-}
-
 /* Does the outline only turn round an end that was cut off? */
 static bool
 is_beside_cut (const LineEndSearch *s, CeldCorner corner)
 {
   for (size_t k = s->first_cut; k < s->end_cuts; k++)
-    if (hypot (corner.x - s->tip[k].x, corner.y - s->tip[k].y) < BESIDE_CUT * s->tip[k].width)
+    if (hypot (corner.x - s->found.tip[k].x, corner.y - s->found.tip[k].y) < BESIDE_CUT * s->found.tip[k].width)
       return true;
   return false;
-}
-
-static CeldStatus
-add_tip (LineEndSearch *s, CeldTip end)
-{
-  uint32_t *latest = latest_at (s, end);
-
-  if (!celd_reserve_one (s->before, s->n_tips, s->before_capacity) ||
-      !celd_reserve_one (s->tip, s->n_tips, s->tip_capacity))
-    return CELD_NO_MEMORY;
-  s->before[s->n_tips] = *latest;
-  s->tip[s->n_tips]    = end;
-  *latest              = (uint32_t) s->n_tips++;
-  return CELD_OK;
 }
 
 /* Is there mostly ink between the ends of arms of that length?  Between the sides of a limb that is only outlined,
@@ -288,9 +223,9 @@ try_corner (LineEndSearch *s, size_t i, const Scale *scale, CeldPlace middle, do
   end.y  = fit->tip ? fit->at.y : corner.y;
   end.dx = fit->tip ? fit->dx : (corner.x - middle.x) / back;
   end.dy = fit->tip ? fit->dy : (corner.y - middle.y) / back;
-  if ((!fit->tip && sharp > CERTAIN_TIP) || is_known (s, end, estimated))
+  if ((!fit->tip && sharp > CERTAIN_TIP) || celd_tip_set_has (&s->found, end, SAME_END * estimated + 1))
     return CELD_OK;
-  return add_tip (s, end);
+  return celd_tip_set_add (&s->found, end);
 }
 
 /* Examines one corner of each turn of the outline: where both sides of the line are nearest.  That is in the middle of
@@ -354,17 +289,17 @@ search_cuts (LineEndSearch *s)
   CeldTip     end;
   CeldStatus  status = CELD_OK;
 
-  s->first_cut = s->end_cuts = s->n_tips;
+  s->first_cut = s->end_cuts = s->found.n;
   for (int stroke = s->stroke; stroke >= BROAD_LINE && status == CELD_OK; stroke /= 2)
     for (size_t from = 0; status == CELD_OK && celd_line_cut_next (s->ink, &outline, stroke, &from, &end);)
       {
         end.outline = s->outline;
         if (stroke == s->stroke)
           refine_cut (s, &end);
-        if (!is_known (s, end, end.width))
-          status = add_tip (s, end);
+        if (!celd_tip_set_has (&s->found, end, SAME_END * end.width + 1))
+          status = celd_tip_set_add (&s->found, end);
       }
-  s->end_cuts = s->n_tips;
+  s->end_cuts = s->found.n;
   return status;
 }
 
@@ -408,7 +343,7 @@ celd_line_ends_find (const CeldPlane *ink, int stroke, const CeldHost *host, Cel
   CeldStatus    status = read_mask (&s);
 
   if (status == CELD_OK)
-    status = make_cells (&s);
+    status = celd_tip_set_open (s.width, s.height, &s.found);
   if (status == CELD_OK)
     status = make_scales (&s);
   for (int y = 0; y < s.height && status == CELD_OK; y++)
@@ -433,14 +368,12 @@ celd_line_ends_find (const CeldPlane *ink, int stroke, const CeldHost *host, Cel
     celd_line_end_clear (&s.end[k]);
   celd_free (s.mask);
   celd_free (s.corner);
-  celd_free (s.before);
-  celd_free (s.latest);
-  if (status != CELD_OK)
+  if (status == CELD_OK)
     {
-      celd_free (s.tip);
-      return status;
+      *tip        = s.found.tip;
+      *n          = s.found.n;
+      s.found.tip = NULL;
     }
-  *tip = s.tip;
-  *n   = s.n_tips;
-  return CELD_OK;
+  celd_tip_set_close (&s.found);
+  return status;
 }
