@@ -46,7 +46,7 @@ typedef struct
   const CeldArrowLayer *layer;
   const CeldStrokeMask *mask;
   double                width;   /* of the paint */
-  bool                  head, dot, fade; /* arrows have heads, or dots at their nearer ends, or fade; else they taper */
+  CeldArrowStyle        style;
   float                *room;    /* of each pixel of the mask: the distance to the edge of the paint */
 
   CeldPoint            *place;   /* where arrows may begin or end */
@@ -93,6 +93,13 @@ celd_search_cell (const CeldArrowSearch *s, CeldPoint p)
   double x = p.x * s->per_pixel, y = p.y * s->per_pixel;
 
   return x >= 0 && y >= 0 && x < s->columns && y < s->rows ? (size_t) y * (size_t) s->columns + (size_t) x : SIZE_MAX;
+}
+
+/* Do arrows fade or taper, without a head or dot? */
+static inline bool
+celd_search_has_profiles (const CeldArrowSearch *s)
+{
+  return s->style == CELD_ARROW_FADE || s->style == CELD_ARROW_TAPER;
 }
 
 /* How many cells there are in all levels, and in one. */

@@ -156,8 +156,8 @@ make_lines (const CeldArrowSearch *s, const CeldArrowReason *unclear, CeldStroke
       if (status != CELD_OK)
         celd_free (line.at);
       arrows[i] = (CeldLineArrow) {
-        .nearer  = meeting_at (s, celd_option_place (s, o, s->dot)),
-        .farther = meeting_at (s, celd_option_place (s, o, !s->dot)),
+        .nearer  = meeting_at (s, celd_option_place (s, o, s->style == CELD_ARROW_DOT)),
+        .farther = meeting_at (s, celd_option_place (s, o, s->style != CELD_ARROW_DOT)),
         .unclear = unclear[i], .first = i,
       };
     }
@@ -187,9 +187,7 @@ celd_search_arrows_read (const CeldJoinedLines *lines, const CeldArrowLayer *lay
     .layer = layer,
     .mask  = &lines->mask,
     .width = lines->graph.width,
-    .head  = lines->style == CELD_ARROW_HEAD,
-    .dot   = lines->style == CELD_ARROW_DOT,
-    .fade  = lines->style == CELD_ARROW_FADE,
+    .style = lines->style,
   };
   bool            many = false;
   CeldStatus      status = find_shafts (&s, &many);

@@ -63,8 +63,8 @@ compare_with_graph (Clearness *r, CeldLineArrow *other)
         const CeldArrowOption *o = &s->option[s->choice.item[i]];
 
         if (other[k].first != k || other[k].unclear ||
-            celd_points_apart (other[k].nearer, celd_option_place (s, o, s->dot)) >= near ||
-            celd_points_apart (other[k].farther, celd_option_place (s, o, !s->dot)) >= near)
+            celd_points_apart (other[k].nearer, celd_option_place (s, o, s->style == CELD_ARROW_DOT)) >= near ||
+            celd_points_apart (other[k].farther, celd_option_place (s, o, s->style != CELD_ARROW_DOT)) >= near)
           continue;
         if (r->margin[i] < AS_GOOD_MARGIN)
           other[k].unclear = CELD_REASON_ALIKE;
@@ -88,7 +88,7 @@ has_partner (const Clearness *r, size_t place, size_t i, CeldPoint way)
           {
             CeldPoint other = celd_shaft_way (shaft, end, WAY_FROM * s->width);
 
-            if (way.x * other.x + way.y * other.y < -cos (s->dot ? DOT_STRAIGHT : ARROW_STRAIGHT))
+            if (way.x * other.x + way.y * other.y < -cos (s->style == CELD_ARROW_DOT ? DOT_STRAIGHT : ARROW_STRAIGHT))
               return true;
           }
     }
@@ -119,7 +119,7 @@ is_shown (const Clearness *r, size_t place)
               bent = true;
           }
     }
-  return s->dot ? bent : !straight;
+  return s->style == CELD_ARROW_DOT ? bent : !straight;
 }
 
 /* Does another arrow lead from one of the places of arrow i to the other?  Then it may be one with two heads. */
@@ -149,7 +149,7 @@ is_mark_needless (const Clearness *r, size_t k)
   const CeldArrowSearch *s = r->s;
   const CeldArrowOption *o = &s->option[s->choice.item[k]];
 
-  for (size_t m = 0; m < s->choice.n && s->dot; m++)
+  for (size_t m = 0; m < s->choice.n && s->style == CELD_ARROW_DOT; m++)
     {
       const CeldArrowOption *q = &s->option[s->choice.item[m]];
 
@@ -238,7 +238,7 @@ margin_needed (const Clearness *r, size_t i)
     return INFINITY;
   if (doubts)
     return CLEAR_MARGIN + doubts * DOUBT_MARGIN;
-  return r->s->dot ? DOT_MARGIN : is_in_crowd (r, i) ? CROWD_MARGIN : CLEAR_MARGIN;
+  return r->s->style == CELD_ARROW_DOT ? DOT_MARGIN : is_in_crowd (r, i) ? CROWD_MARGIN : CLEAR_MARGIN;
 }
 
 /* Does nothing round an arrow speak against it, whatever its margin? */
@@ -247,7 +247,8 @@ is_explained (const Clearness *r, size_t i)
 {
   const CeldArrowSearch *s = r->s;
   const CeldShaft       *shaft = celd_chosen_shaft (s, i);
-  double                 most = s->dot ? DOT_MOST_REST : r->margin[i] < CERTAIN_MARGIN ? ARROW_MOST_REST
+  double                 most = s->style == CELD_ARROW_DOT ? DOT_MOST_REST
+                                : r->margin[i] < CERTAIN_MARGIN ? ARROW_MOST_REST
                                 : CERTAIN_MOST_REST;
 
   return r->paint.rest[i] <= most && celd_search_is_apart (s, shaft->place[0]) &&
@@ -285,21 +286,22 @@ why_unclear (const Clearness *r, size_t i)
   const CeldArrowOption *o = &s->option[s->choice.item[i]];
   const CeldShaft       *shaft = &s->shaft[o->shaft];
   size_t                 tail = shaft->place[1 - o->end];
+  bool                   dot = s->style == CELD_ARROW_DOT;
 
-  if (!s->head && !s->dot)
+  if (celd_search_has_profiles (s))
     return why_profile_unclear (r, i);
   if (is_double (r, i))
     return CELD_REASON_ALIKE;
-  if (!(s->dot && r->agreed[i]) && (!is_shown (r, shaft->place[0]) || !is_shown (r, shaft->place[1])))
+  if (!(dot && r->agreed[i]) && (!is_shown (r, shaft->place[0]) || !is_shown (r, shaft->place[1])))
     return CELD_REASON_MEETING;
   if (r->agreed[i])
     return is_explained (r, i) && !celd_chosen_is_on_another (s, i) ? CELD_REASON_NONE : CELD_REASON_MEETING;
   if (shaft->length < SHORTEST * s->width)
     return CELD_REASON_SHORT;
-  if (o->mark_cost > (s->dot ? MOST_OF_DOT : MOST_OF_HEAD))
+  if (o->mark_cost > (dot ? MOST_OF_DOT : MOST_OF_HEAD))
     return CELD_REASON_ALIKE;
   if (o->cost > MOST_OF_ARROW || s->passed[o->shaft] || celd_chosen_passes_end (s, i) || !is_explained (r, i) ||
-      (s->dot ? celd_rest_round (r->s, shaft) > DOT_ROUND_REST : celd_rest_near (r->s, tail) > TAIL_MOST_REST))
+      (dot ? celd_rest_round (r->s, shaft) > DOT_ROUND_REST : celd_rest_near (r->s, tail) > TAIL_MOST_REST))
     return CELD_REASON_MEETING;
   if (r->margin[i] < margin_needed (r, i))
     return r->paint.seen[i] < ARROW_LEAST_OWN ? CELD_REASON_ALIKE : CELD_REASON_MEETING;

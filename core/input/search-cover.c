@@ -56,7 +56,7 @@ celd_search_cells_new (CeldArrowSearch *s)
 
   s->step    = fmax (1, s->width / COVER_CELLS);
   s->per_pixel = 1 / s->step;
-  s->levels  = s->fade ? COVER_LEVELS : 1;
+  s->levels  = s->style == CELD_ARROW_FADE ? COVER_LEVELS : 1;
   s->area    = UNEXPLAINED * s->step * s->step / (s->width * s->width) / s->levels;
   s->columns = (int) (s->mask->width / s->step) + 1;
   s->rows    = (int) (s->mask->height / s->step) + 1;
@@ -270,6 +270,7 @@ static void
 gather_profile (Gather *g, const CeldShaft *shaft, const CeldShaftSample *sample, int n, int end)
 {
   CeldArrowSearch *s = g->s;
+  bool             fade = s->style == CELD_ARROW_FADE;
 
   start (g);
   for (int i = 0; i <= n; i++)
@@ -277,8 +278,8 @@ gather_profile (Gather *g, const CeldShaft *shaft, const CeldShaftSample *sample
       double    fall = sample[i < n ? i : n - 1].fall[end];
       CeldPoint from = i ? sample[i - 1].at : shaft->at[0], to = i < n ? sample[i].at : shaft->at[shaft->n - 1];
 
-      g->levels = s->fade ? (int) fmin (s->levels, 1 + floor ((fall + LEVEL_MORE) * s->levels)) : 1;
-      gather (g, (CeldPoint[]) { from, to }, 2, (s->fade ? BODY : THICK * fall) * s->width + MORE_BODY);
+      g->levels = fade ? (int) fmin (s->levels, 1 + floor ((fall + LEVEL_MORE) * s->levels)) : 1;
+      gather (g, (CeldPoint[]) { from, to }, 2, (fade ? BODY : THICK * fall) * s->width + MORE_BODY);
     }
   g->levels = 1;
 }
@@ -342,13 +343,13 @@ celd_search_options_new (CeldArrowSearch *s)
   double    *cost = celd_alloc (s->n_places + 1, sizeof *cost);
   CeldStatus status = g.cell && g.own && cost ? CELD_OK : CELD_NO_MEMORY;
 
-  if (status == CELD_OK && s->dot)
+  if (status == CELD_OK && s->style == CELD_ARROW_DOT)
     status = add_dots (&g, cost);
-  for (size_t k = 0; k < s->n_shafts && status == CELD_OK && s->head; k++)
+  for (size_t k = 0; k < s->n_shafts && status == CELD_OK && s->style == CELD_ARROW_HEAD; k++)
     status = add_heads (&g, k);
-  if (status == CELD_OK && !s->head && !s->dot)
+  if (status == CELD_OK && celd_search_has_profiles (s))
     status = piece_from (&g, &nothing);
-  for (size_t k = 0; k < s->n_shafts && status == CELD_OK && !s->head && !s->dot; k++)
+  for (size_t k = 0; k < s->n_shafts && status == CELD_OK && celd_search_has_profiles (s); k++)
     status = add_profiles (&g, k, nothing);
   if (status == CELD_OK)
     status = index_pieces (s);

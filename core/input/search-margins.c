@@ -203,7 +203,7 @@ celd_search_margins_find (CeldArrowSearch *s, double *margin)
         leave_out (&m, m.best.item[i]);
       for (size_t i = 0; i < m.best.n; i++)
         turn (&m, m.best.item[i]);
-      for (size_t i = 0; i < m.best.n && s->head; i++)
+      for (size_t i = 0; i < m.best.n && s->style == CELD_ARROW_HEAD; i++)
         give_two_heads (&m, i);
       for (size_t p = 0; p < s->n_places; p++)
         {

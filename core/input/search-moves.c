@@ -317,7 +317,7 @@ celd_search_best (CeldArrowSearch *s)
   CeldArrowChoice nothing = s->choice, open;
   CeldStatus      status;
 
-  if (!s->head)
+  if (s->style != CELD_ARROW_HEAD)
     return find_best (s);
   ban_heads (s, true, true);
   status = find_best (s);

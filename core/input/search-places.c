@@ -155,7 +155,7 @@ add_free_ends (PlaceBuild *b)
     {
       const CeldStrokeArm *arm = &b->arm[i];
       CeldPoint            node = b->raw.node[b->raw.line[arm->line].node[arm->end]].at;
-      bool                 fat = b->s->head && celd_search_room (b->s, node) > FAT * w;
+      bool                 fat = b->s->style == CELD_ARROW_HEAD && celd_search_room (b->s, node) > FAT * w;
       double               length, last;
 
       if (!is_free (b, arm, &length) || (length < CELD_ARM_LONG * w && !fat && !goes_on (b, arm)))
@@ -353,15 +353,15 @@ find_places (PlaceBuild *b)
 {
   CeldStatus status = find_arms (b);
 
-  for (size_t k = 0; k < b->raw.n_lines && status == CELD_OK && b->s->dot; k++)
+  for (size_t k = 0; k < b->raw.n_lines && status == CELD_OK && b->s->style == CELD_ARROW_DOT; k++)
     status = add_blobs (b, &b->raw.line[k]);
   if (status == CELD_OK)
     status = add_meetings (b);
   if (status == CELD_OK)
     status = add_free_ends (b);
-  if (status == CELD_OK && !b->s->head && !b->s->dot)
+  if (status == CELD_OK && celd_search_has_profiles (b->s))
     status = add_changes (b);
-  if (status == CELD_OK && b->s->head)
+  if (status == CELD_OK && b->s->style == CELD_ARROW_HEAD)
     status = add_narrows (b);
   for (size_t k = 0; k < b->raw.n_lines && status == CELD_OK; k++)
     status = add_corners (b, &b->raw.line[k]);

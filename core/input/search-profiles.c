@@ -24,7 +24,7 @@ celd_search_strength (const CeldArrowSearch *s, CeldPoint p)
 {
   double room = celd_search_room (s, p);
 
-  if (!s->fade)
+  if (s->style != CELD_ARROW_FADE)
     return PART_OF_ONE * room / s->width;
   return room > 0 ? celd_arrow_opacity (s->layer, (int) p.x + s->mask->left, (int) p.y + s->mask->top) / 255.0 : 0;
 }

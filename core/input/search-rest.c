@@ -61,7 +61,7 @@ find_own (CeldArrowSearch *s, CeldChoicePaint *paint)
           if (s->covers[c] != all[c])
             continue;
           paint->seen[i] += area;
-          paint->own[i] += s->dot || all[c] == 1 ? area : 0;
+          paint->own[i] += s->style == CELD_ARROW_DOT || all[c] == 1 ? area : 0;
           paint->of_place[i] += all[c] == here[c] ? area : 0;
         }
       count_marks (s, i, here, -1);

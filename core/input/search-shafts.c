@@ -70,7 +70,7 @@ paint_cost (const CeldArrowSearch *s, CeldPoint a, CeldPoint b)
   for (int i = 0; i < n; i++)
     {
       double room = celd_search_room (s, celd_search_between (a, b, (i + 0.5) / n));
-      double missing = (s->head || s->dot || s->fade ? SHAFT_ROOM : THIN_ROOM) - (room + LESS_ROOM) / w;
+      double missing = (s->style != CELD_ARROW_TAPER ? SHAFT_ROOM : THIN_ROOM) - (room + LESS_ROOM) / w;
 
       if (room <= 0)
         cost += BARE_COST * length / n;

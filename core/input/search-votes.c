@@ -135,7 +135,7 @@ celd_search_votes_count (const CeldArrowSearch *search, const CeldStrokeArm *arm
   for (size_t i = 0; i < n_arms; i++)
     for (size_t k = i + 1; k < n_arms && status == CELD_OK; k++)
       status = meet (&v, &arm[i], &arm[k]);
-  for (size_t i = 0; i < n_arms && status == CELD_OK && search->head; i++)
+  for (size_t i = 0; i < n_arms && status == CELD_OK && search->style == CELD_ARROW_HEAD; i++)
     if (arm[i].length > 4 * search->width)
       status = find_tips (&v, &arm[i]);
   if (status == CELD_OK)
