@@ -47,6 +47,10 @@ class Figure:
             mask.line(points + points[:2], index, width + 2, joint='curve')
         self.line(points + points[:1], width)
 
+    def rub_out(self, left, top, right, bottom):
+        """Makes an ellipse of paper in this box."""
+        self.ink.ellipse([v * SCALE for v in (left, top, right, bottom)], 255)
+
     def stroke(self, layer, points, colour, width=5):
         """A hard-edged stroke on a layer that is transparent elsewhere."""
         picture = self.layers.setdefault(layer, Image.new('RGBA', self.size, (0, 0, 0, 0)))
@@ -84,7 +88,7 @@ def thick():
     f = Figure()
     f.shape(box(20, 80, 220, 120), 10, 1)
     f.shape(box(80, 40, 160, 160), 10, 2)
-    f.ink.ellipse([v * SCALE for v in (117, 152, 123, 168)], 255)   # a gap in the front sheet's lower side
+    f.rub_out(117, 152, 123, 168)   # a gap in the front sheet's lower side
     f.stroke('scribbles', [(100, 60), (140, 140)], A)
     f.stroke('scribbles', [(35, 100), (65, 100)], B)
     f.stroke('scribbles', [(175, 100), (205, 100)], B)
@@ -166,7 +170,7 @@ def broken():
     f.shape(box(20, 30, 220, 170))
     f.line([(30, 100), (210, 100)])
     for x in 70, 170:
-        f.ink.ellipse([v * SCALE for v in (x - 8, 92, x + 8, 108)], 255)
+        f.rub_out(x - 8, 92, x + 8, 108)
     f.stroke('contours', [(155, 100), (185, 100)], BLUE, 5)
     f.stroke('scribbles', [(35, 60), (205, 60)], A, 6)
     f.stroke('scribbles', [(35, 140), (205, 140)], B, 6)
@@ -217,15 +221,11 @@ def hairline_gaps():
     f.shape(box(25, 25, 100, 175), 22)
     f.line([(111, 40), (225, 40), (225, 110), (195, 110), (190, 155), (157, 155), (150, 110), (111, 110)], 2)
     for x, y in (151, 116), (157, 155), (192, 137):
-        f.ink.ellipse([v * SCALE for v in (x - 2.5, y - 2.5, x + 2.5, y + 2.5)], 255)
+        f.rub_out(x - 2.5, y - 2.5, x + 2.5, y + 2.5)
     f.stroke('scribbles', [(45, 60), (80, 60)], A)
     f.stroke('scribbles', [(125, 75), (210, 75)], B)
     f.stroke('scribbles', [(5, 7), (235, 7)], C)
     return f
-
-
-def rub_out(f, x, y, radius):
-    f.ink.ellipse([v * SCALE for v in (x - radius, y - radius, x + radius, y + radius)], 255)
 
 
 def stubs():
@@ -234,8 +234,8 @@ def stubs():
     f.line(box(40, 40, 200, 160) + [(40, 40)], 14)
     for x, y in box(40, 40, 200, 160):
         f.ink.rectangle([v * SCALE for v in (x - 15, y - 15, x + 15, y + 15)], 0)
-    rub_out(f, 120, 40, 57)
-    rub_out(f, 40, 100, 36)
+    f.rub_out(63, -17, 177, 97)
+    f.rub_out(4, 64, 76, 136)
     f.stroke('scribbles', [(150, 125), (180, 125)], A)
     f.stroke('scribbles', [(5, 193), (235, 193)], B)
     return f
@@ -247,7 +247,7 @@ def ring_round_bar():
     around = [math.radians(i) for i in range(0, 361, 2)]
     f.line([(120 + 72 * math.cos(a), 100 + 72 * math.sin(a)) for a in around], 24)
     f.ink.rectangle([v * SCALE for v in (105, 88, 180, 112)], 0)
-    rub_out(f, 55, 62, 44)
+    f.rub_out(11, 18, 99, 106)
     f.stroke('scribbles', [(95, 140), (145, 140)], A)
     f.stroke('scribbles', [(10, 190), (230, 190)], B)
     return f
