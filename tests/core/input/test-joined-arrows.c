@@ -389,35 +389,35 @@ a_hub (void)
   CHECK (right >= 0.95 * 60 * 7);
 }
 
-/* Two hubs with an arrow from one to the other, and four more at each, which begin or end there as it comes: many are in
- * line with others, and which of them go on shows only in all together. */
+/* Two hubs with an arrow from one to the other, and six more at each, which begin or end there as it comes and lead
+ * anywhere: some are in line with others, and which of them go on shows only in all together. */
 static void
 two_hubs (void)
 {
+  enum { ARMS = 6, ALL = 2 * ARMS + 1 };
   uint32_t state = 53;
   int      right = 0;
 
   for (int i = 0; i < 60; i++)
     {
       CeldArrowStyle style = i % 2 ? CELD_ARROW_FADE : CELD_ARROW_TAPER;
-      double         w = random_between (&state, 4, 6), turn = random_between (&state, 0, 6.28);
+      double         w = random_between (&state, 4, 6), turn = random_between (&state, 0, 6.28), angle = 0;
       Point          hub[2];
-      Arrow          a[9];
+      Arrow          a[ALL];
 
       for (int k = 0; k < 2; k++)
-        hub[k] = (Point) { SIZE / 2. + (2 * k - 1) * 50 * cos (turn), SIZE / 2. + (2 * k - 1) * 50 * sin (turn) };
-      a[8] = through (hub[0], turn, 100, 0, w, style, true);
-      for (int k = 0; k < 8; k++)
+        hub[k] = (Point) { SIZE / 2. + (2 * k - 1) * 45 * cos (turn), SIZE / 2. + (2 * k - 1) * 45 * sin (turn) };
+      a[ALL - 1] = through (hub[0], turn, 90, 0, w, style, true);
+      for (int k = 0; k < ALL - 1; k++)
         {
-          bool   inwards = check_random (&state, 2);
-          double angle = turn + (k < 4 ? 0 : 3.1416) + (k % 4 + 1) * 1.2566 + random_between (&state, -0.15, 0.15);
+          bool inwards = check_random (&state, 2);
 
-          a[k] = through (hub[k / 4], angle + (inwards ? 3.1416 : 0), random_between (&state, 70, 85), inwards, w, style,
-                          true);
+          angle = (k % ARMS ? angle : turn + k / ARMS * 3.1416) + random_between (&state, 0.35, 5.9 / ARMS);
+          a[k]  = through (hub[k / ARMS], angle + inwards * 3.1416, random_between (&state, 55, 95), inwards, w, style, true);
         }
-      right += read_all (a, 9, style, &state);
+      right += read_all (a, ALL, style, &state);
     }
-  CHECK (right >= 0.8 * 60 * 9);
+  CHECK (right >= 0.9 * 60 * ALL);
 }
 
 /* Lines that lead to one place at 30 degrees look like a disc there; the dots of all are at their other ends. */
