@@ -114,6 +114,38 @@ celd_op_check_scribbles (CeldOp *op, const char *drawing_pad, const CeldPaint *s
                               "or scribble in clear colours."));
 }
 
+/* Of the strokes, and of the drawing whose lines they should not have. */
+static guint64
+strokes_input (const CeldOperation *operation, const CeldPaint *strokes)
+{
+  guint64 input = 0;
+
+  for (guint i = 0; i < G_N_ELEMENTS (operation->good); i++)
+    input = celd_op_add_input (input, &operation->good[i].input, sizeof operation->good[i].input);
+  return celd_op_add_input (input, strokes->data, 4 * (gsize) strokes->width * (gsize) strokes->height);
+}
+
+/* The fills of a coloured drawing may be scribbles with its lines in them, which regions can be found by. */
+gboolean
+celd_op_check_strokes (CeldOp *op, const char *pad, const CeldPaint *strokes, gboolean scribbles)
+{
+  guint64   input = strokes_input (op->operation, strokes);
+  guint64  *good = &op->operation->good_strokes[celd_op_pad_index (op, pad)];
+  bool      have = false;
+  CeldPlane ink;
+
+  if (op->settings.flats || input == *good)
+    return TRUE;
+  if (!celd_op_try (op, celd_session_ink (op->operation->session, &op->quiet, &ink, NULL)) ||
+      !celd_op_try (op, celd_layer_has_lines (strokes, &ink, &have)))
+    return FALSE;
+  if (scribbles && (celd_paint_has_colours (strokes) || celd_paint_is_coloured (strokes)))
+    have = false;
+  *good = have ? 0 : input;
+  return !have || celd_op_fail (op, _ ("The picture for '%s' (pad %s) has the lines of the drawing. Choose a layer with "
+                                       "the strokes alone."), _ (celd_op_pad_label (op, pad)), pad);
+}
+
 gboolean
 celd_op_check_grey (CeldOp *op, const char *pad)
 {

@@ -43,13 +43,22 @@ is_empty_picker (CeldOp *op, const char *pad)
   return FALSE;
 }
 
+guint
+celd_op_pad_index (CeldOp *op, const char *name)
+{
+  const CeldPad *pad = CELD_OPERATION_CLASS_OF (op->operation)->info->pads;
+  guint          i = 0;
+
+  while (strcmp (pad[i].name, name))
+    i++;
+  g_assert (i < CELD_MAX_PADS);
+  return i;
+}
+
 const char *
 celd_op_pad_label (CeldOp *op, const char *name)
 {
-  for (const CeldPad *pad = CELD_OPERATION_CLASS_OF (op->operation)->info->pads; pad->name; pad++)
-    if (!strcmp (pad->name, name))
-      return pad->label;
-  return name;
+  return CELD_OPERATION_CLASS_OF (op->operation)->info->pads[celd_op_pad_index (op, name)].label;
 }
 
 gboolean

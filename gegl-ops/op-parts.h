@@ -43,6 +43,8 @@ void celd_operation_attach (GeglOperation *operation);
  * message. */
 gboolean celd_op_check_pads (CeldOp *op);
 
+/* The place of a pad of this name, which there has to be, among those of the operation. */
+guint       celd_op_pad_index (CeldOp *op, const char *name);
 /* The label of a pad, as hosts show it. */
 const char *celd_op_pad_label (CeldOp *op, const char *name);
 
@@ -54,6 +56,8 @@ gboolean celd_op_check_drawing   (CeldOp *op, const char *pad, const CeldDrawing
 gboolean celd_op_check_lines     (CeldOp *op, const char *pad, const CeldDrawing *drawing);
 /* Refuses a photograph, and scribbles that were exchanged with the drawing of that pad, or are a copy of it. */
 gboolean celd_op_check_scribbles (CeldOp *op, const char *drawing_pad, const CeldPaint *scribbles);
+/* Refuses strokes that have the lines of the drawing, which the session has; scribbles only without colours. */
+gboolean celd_op_check_strokes   (CeldOp *op, const char *pad, const CeldPaint *strokes, gboolean scribbles);
 /* Refuses colours where there has to be depth or levels. */
 gboolean celd_op_check_grey      (CeldOp *op, const char *pad);
 /* Refuses values that are infinite or no number where they are seen. */

@@ -89,6 +89,8 @@ typedef struct { gpointer result; GDestroyNotify destroy; guint64 input; } CeldK
 /* The fingerprint of the last drawing that was not refused, 0 if there is none, and whether it may be a photograph. */
 typedef struct { guint64 input; gboolean unsure; } CeldGoodDrawing;
 
+#define CELD_MAX_PADS 8 /* that an operation has */
+
 typedef struct
 {
   GeglOperation parent_instance;
@@ -101,6 +103,7 @@ typedef struct
   CeldSession  *session;           /* of operations that keep results between calls; made by celd_op_set_session */
   CeldKept      kept;
   CeldGoodDrawing good[2];         /* of pad "input", and of another pad */
+  guint64       good_strokes[CELD_MAX_PADS]; /* the fingerprint of the last strokes of each that were not refused */
 } CeldOperation;
 
 typedef struct

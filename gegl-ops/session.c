@@ -26,7 +26,7 @@ celd_op_set_layer (CeldOp *op, const char *pad, CeldStatus (*set) (CeldSession *
 
   if (!celd_op_has_input (op, pad))
     return celd_op_try (op, set (op->operation->session, NULL));
-  return celd_op_read_paint (op, pad, &paint) &&
+  return celd_op_read_paint (op, pad, &paint) && celd_op_check_strokes (op, pad, &paint, FALSE) &&
          celd_op_try (op, set (op->operation->session, &paint));
 }
 
@@ -38,6 +38,7 @@ set_scribbles (CeldOp *op, const char *drawing_pad, const char *pad)
   if (!celd_op_has_input (op, pad))
     return celd_op_try (op, celd_session_set_scribbles (op->operation->session, NULL));
   return celd_op_read_paint (op, pad, &scribbles) && celd_op_check_scribbles (op, drawing_pad, &scribbles) &&
+         celd_op_check_strokes (op, pad, &scribbles, TRUE) &&
          celd_op_try (op, celd_session_set_scribbles (op->operation->session, &scribbles));
 }
 

@@ -110,6 +110,44 @@ celd_pipeline_check_layers (CeldPipeline *p, const CeldPipelineInput *input, gui
   return (!scribbles || check_scribbles (p, input, error)) && (!drawing || check_drawing (p, input, error));
 }
 
+/* Scribbles may be the fills of a coloured drawing with its lines, which regions can be found by. */
+static gboolean
+check_strokes (const CeldPipeline *p, const CeldPipelineInput *input, CeldLayerRole role, const CeldPlane *ink,
+               GError **error)
+{
+  CeldPaint  paint = { 0 };
+  bool       drawn = false;
+  CeldStatus status = read_paint (p, input, role, &paint);
+
+  if (status == CELD_OK)
+    status = celd_layer_has_lines (&paint, ink, &drawn);
+  if (role == CELD_LAYER_SCRIBBLES)
+    drawn = drawn && !celd_paint_has_colours (&paint) && !celd_paint_is_coloured (&paint);
+  g_free (paint.data);
+  return celd_pipeline_try (status, error) &&
+         (!drawn || celd_pipeline_fail (error, _ ("The layer with '%s' has the lines of the drawing. Choose a layer with "
+                                                  "the strokes alone."), _ (celd_layer_role_name (role))));
+}
+
+gboolean
+celd_pipeline_check_lines (CeldPipeline *p, const CeldPipelineInput *input, guint layers, GError **error)
+{
+  CeldHost  host = { NULL, celd_gegl_each, NULL };
+  CeldPlane ink;
+  gboolean  good;
+
+  if (p->settings.flats)
+    return TRUE;
+  good = celd_pipeline_try (celd_session_ink (p->session, &host, &ink, NULL), error) &&
+         (celd_ink_has_lines (&ink) ||
+          celd_pipeline_fail (error, _ ("The layer with the drawing has no lines: it is blank, or its lines are too "
+                                        "faint. Choose another layer, or another setting of 'Ink'.")));
+  for (int role = CELD_LAYER_SCRIBBLES; good && role < CELD_N_LAYERS; role++)
+    if (layers & 1u << role && input->layer[role].buffer)
+      good = check_strokes (p, input, (CeldLayerRole) role, &ink, error);
+  return good;
+}
+
 gboolean
 celd_pipeline_check_grey (const CeldPipelineLayer *layer, GError **error)
 {

@@ -57,6 +57,9 @@ gboolean celd_pipeline_report_steps (gpointer report, double done, const char *s
 /* TRUE unless scribbles or the drawing are a photograph, or exchanged; else *error has a sentence for the artist.  Of
  * these two, those are examined that are among `layers`, as bits.  Sets p->unsure. */
 gboolean celd_pipeline_check_layers (CeldPipeline *p, const CeldPipelineInput *input, guint layers, GError **error);
+/* TRUE if the drawing, which the session has, has lines, and no other layer has them, too; else *error has a sentence for
+ * the artist.  Those layers are examined that are among `layers`, as bits. */
+gboolean celd_pipeline_check_lines (CeldPipeline *p, const CeldPipelineInput *input, guint layers, GError **error);
 /* TRUE if a layer can be depth or levels, which are grey. */
 gboolean celd_pipeline_check_grey (const CeldPipelineLayer *layer, GError **error);
 

@@ -190,20 +190,6 @@ set_arrow_path (CeldPipeline *p, const char *path, GError **error)
                              _ (place.found), _ (place.expected));
 }
 
-static gboolean
-check_lines (CeldPipeline *p, GError **error)
-{
-  CeldHost  host = { NULL, celd_gegl_each, NULL };
-  CeldPlane ink;
-
-  if (p->settings.flats)
-    return TRUE;
-  return celd_pipeline_try (celd_session_ink (p->session, &host, &ink, NULL), error) &&
-         (celd_ink_has_lines (&ink) ||
-          celd_pipeline_fail (error, _ ("The layer with the drawing has no lines: it is blank, or its lines are too "
-                                        "faint. Choose another layer, or another setting of 'Ink'.")));
-}
-
 /* Levels are in [0,1] whatever their encoding says. */
 static CeldStatus
 set_settings (CeldPipeline *p, const CeldSettings *settings)
@@ -233,7 +219,7 @@ celd_pipeline_update (CeldPipeline *p, const CeldPipelineInput *input, guint lay
          celd_pipeline_try (set_layers (p, input, layers), error) &&
          set_relations (p, input->relations, error) &&
          set_arrow_path (p, input->arrow_path, error) &&
-         check_lines (p, error);
+         celd_pipeline_check_lines (p, input, layers, error);
 }
 
 CeldPipeline *

@@ -119,6 +119,14 @@ exchanged_layers_are_noticed (void)
     }
 }
 
+static void
+drawings_are_no_strokes (void)
+{
+  for (size_t i = 0; i < G_N_ELEMENTS (finders); i++)
+    CHECK (refuses (finders[i], (Pads) { { drawing, scribbles, drawing } }, "(pad aux2) has the lines of the drawing"));
+  CHECK (refuses ("celdepth:popup", (Pads) { { drawing, scribbles, arrows, drawing } }, "(pad aux3) has the lines"));
+}
+
 /* Fills do not make scribbles of a drawing, nor a drawing of what has the same colours. */
 static void
 coloured_drawings_are_no_scribbles (void)
@@ -262,6 +270,7 @@ main (int argc, char **argv)
   RUN (photographs_are_no_scribbles);
   RUN (exchanged_layers_are_noticed);
   RUN (coloured_drawings_are_no_scribbles);
+  RUN (drawings_are_no_strokes);
   RUN (blank_pages_have_no_depth);
   RUN (flats_need_no_lines);
   RUN (colours_are_no_depth);

@@ -380,6 +380,41 @@ other_layers_than_meant_are_refused (void)
   g_object_unref (photograph);
 }
 
+/* The drawing in place of strokes, also once it takes the place of good ones; its colours may be scribbles. */
+static void
+drawings_are_no_strokes (void)
+{
+  static float      colour[3 * PIXELS];
+  CeldPipelineInput input = page_input ();
+  CeldPipeline     *pipeline = celd_pipeline_new (&input, NULL);
+  GeglBuffer       *coloured, *copy = gegl_buffer_dup (drawing);
+  GError           *error = NULL;
+
+  colour_page (colour);
+  coloured = page_buffer ("R'G'B' u8", "R'G'B' float", colour);
+  for (int role = CELD_LAYER_ARROWS; role < CELD_N_LAYERS; role++)
+    {
+      input = page_input ();
+      input.layer[role].buffer = copy;
+      CHECK (refused (&input, "has the lines of the drawing"));
+      input.layer[role].buffer = coloured;
+      CHECK (refused (&input, "has the lines of the drawing"));
+      input.settings.flats = true;
+      CHECK (!refused (&input, "has the lines of the drawing"));
+    }
+  input = page_input ();
+  input.layer[CELD_LAYER_SCRIBBLES].buffer = coloured;
+  CHECK (!refused (&input, "has the lines of the drawing"));
+  input.layer[CELD_LAYER_SCRIBBLES].buffer = scribbles;
+  input.layer[CELD_LAYER_ARROWS].buffer = copy;
+  CHECK (!celd_pipeline_update (pipeline, &input, 1u << CELD_LAYER_ARROWS, &error) &&
+         strstr (error->message, "The layer with 'Arrows' has the lines of the drawing"));
+  g_clear_error (&error);
+  celd_pipeline_free (pipeline);
+  g_object_unref (coloured);
+  g_object_unref (copy);
+}
+
 /* A layer in colours is no depth. */
 static void
 only_grey_layers_are_depth (void)
@@ -542,6 +577,7 @@ main (void)
   RUN (layers_are_the_drawing_again);
   RUN (input_without_sense_is_refused);
   RUN (other_layers_than_meant_are_refused);
+  RUN (drawings_are_no_strokes);
   RUN (only_grey_layers_are_depth);
   RUN (only_numbers_are_paint);
   RUN (only_numbers_are_depth);
