@@ -42,13 +42,6 @@ typedef struct
 
 /* ------------------------------------------------------------------ bridges */
 
-static CeldLineEnd
-end_of (const CeldTip *tip)
-{
-  return (CeldLineEnd) { .tip = true, .at = { tip->x, tip->y }, .inside = { tip->x - tip->dx, tip->y - tip->dy },
-                         .dx = tip->dx, .dy = tip->dy };
-}
-
 /* Falls from 1 at `certain` to 0 at `doubtful`. */
 static double
 ramp (double value, double certain, double doubtful)
@@ -131,15 +124,18 @@ build (BridgeBuilder *b, CeldBridge bridge, const CeldPlace *place, size_t n, do
 static CeldStatus
 build_between (BridgeBuilder *b, const CeldTipPair *pair)
 {
-  CeldLineEnd from = end_of (&b->tip[pair->a]), to = end_of (&b->tip[pair->b]);
-  CeldPlace   place[CELD_CURVE_PLACES];
-  size_t      n = celd_curve_draw (&from, &to, place);
-  bool        built;
-  CeldStatus  status;
+  const CeldTip *p = &b->tip[pair->a], *q = &b->tip[pair->b];
+  CeldLineEnd    from = { 0 }, to = { 0 };
+  CeldPlace      place[CELD_CURVE_PLACES];
+  size_t         n;
+  bool           built;
+  CeldStatus     status;
 
-  b->faintness = CELD_FAINTEST_INK * (float) (1 - certainty (&b->tip[pair->a], &b->tip[pair->b]));
-  status       = build (b, (CeldBridge) { .ahead = false }, place, n,
-                        celd_finer_stroke (&b->tip[pair->a], &b->tip[pair->b]), &built);
+  celd_line_end_set_tip (p, &from);
+  celd_line_end_set_tip (q, &to);
+  n = celd_curve_draw (&from, &to, place);
+  b->faintness = CELD_FAINTEST_INK * (float) (1 - certainty (p, q));
+  status       = build (b, (CeldBridge) { .end = { *p, *q } }, place, n, celd_finer_stroke (p, q), &built);
   if (built)
     b->taken[pair->a] = b->taken[pair->b] = true;
   return status;

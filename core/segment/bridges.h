@@ -49,8 +49,8 @@ CeldStatus celd_tip_pairs_next (CeldTipPairs *pairs, const bool *taken, const Ce
 typedef struct { int32_t x, y; float ink; } CeldBridgePixel;
 
 /* Its pixels, from end to end; its length in pixels; does it go on from a single end to the ink ahead, and is that the
- * end of a line that may be the side of a room? */
-typedef struct { size_t first, n; double length; bool ahead, line; } CeldBridge;
+ * end of a line that may be the side of a room?  If not ahead, the line ends that it joins. */
+typedef struct { size_t first, n; double length; bool ahead, line; CeldTip end[2]; } CeldBridge;
 
 typedef struct
 {

@@ -19,6 +19,7 @@
 #include "segment/task.h"
 
 #include <math.h>
+#include <stdlib.h>
 
 #define DAMPING          0.7  /* factor of the length of tangents (chosen, as all of these) */
 #define WOBBLE           0.28 /* radians: an angle of this size counts half */
@@ -26,6 +27,7 @@
 #define MOST_ANGLE       1.05 /* from here on it is not: 60 degrees */
 #define MOST_S           0.5  /* radians: the smaller of two angles that make an S may be this large */
 #define SPACING          3.0  /* pixels between places of the polyline */
+#define BESIDE           3    /* pixels between the end of a bridge and that of a boundary along it, at most */
 #define SHORTEST_CLOSURE 0.75 /* pixels: shorter closures are not listed */
 
 /* ------------------------------------------------------------------ the curve */
@@ -115,6 +117,34 @@ add_old (const CeldChain *chain, const CeldCorner *corner, CeldClosures *closure
   return status;
 }
 
+static bool
+begins_at (CeldCorner corner, CeldBridgePixel pixel)
+{
+  return abs (pixel.x - corner.x) <= BESIDE && abs (pixel.y - corner.y) <= BESIDE;
+}
+
+/* A boundary along a bridge ends where that does.  Stubs that are shorter than they are wide have no direction of their
+ * own in the ink around them. */
+static void
+take_bridge_ends (CeldRedrawing *r, CeldCorner first, CeldCorner last)
+{
+  const CeldBridges *all = r->task->bridges;
+
+  for (size_t i = 0; all && i < all->n; i++)
+    {
+      const CeldBridge *bridge = &all->item[i];
+      CeldBridgePixel   p = all->pixel[bridge->first], q = all->pixel[bridge->first + bridge->n - 1];
+      bool              along = begins_at (first, p) && begins_at (last, q);
+
+      if (bridge->ahead || (!along && !(begins_at (first, q) && begins_at (last, p))))
+        continue;
+      for (int k = 0; k < 2; k++)
+        if (!r->end[k].tip)
+          celd_line_end_set_tip (&bridge->end[along ? k : 1 - k], &r->end[k]);
+      break;
+    }
+}
+
 /* Examines both ends of a chain, and sets where the curve starts and ends. */
 static void
 find_ends (CeldRedrawing *r, const CeldChain *chain, const CeldCorner *corner)
@@ -126,6 +156,8 @@ find_ends (CeldRedrawing *r, const CeldChain *chain, const CeldCorner *corner)
       celd_line_end_fit (r->task->ink, chain->ink[k], &r->end[k]);
     else
       celd_line_end_set_corner (corner[k ? chain->n - 1 : 0], &r->end[k]);
+  if (a->n && b->n && (!a->tip || !b->tip))
+    take_bridge_ends (r, corner[0], corner[chain->n - 1]);
   if (b->n && !b->tip)
     celd_line_end_aim (r->task->ink, a, b);
   if (a->n && !a->tip)

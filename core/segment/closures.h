@@ -77,6 +77,9 @@ void celd_line_end_fit (const CeldPlane *ink, CeldCorner pixel, CeldLineEnd *end
 /* Is this pixel of ink connected to the end? */
 bool celd_line_end_contains (const CeldLineEnd *end, int x, int y);
 
+/* Sets an end at a line end that is known; the ink that was gathered there stays. */
+void celd_line_end_set_tip (const CeldTip *tip, CeldLineEnd *end);
+
 /* Sets an end at a corner without ink. */
 void celd_line_end_set_corner (CeldCorner corner, CeldLineEnd *end);
 

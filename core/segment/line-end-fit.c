@@ -341,6 +341,17 @@ celd_line_end_fit (const CeldPlane *ink, CeldCorner pixel, CeldLineEnd *end)
 }
 
 void
+celd_line_end_set_tip (const CeldTip *tip, CeldLineEnd *end)
+{
+  end->tip    = true;
+  end->width  = tip->width > 0 ? tip->width : tip->stroke;
+  end->at     = (CeldPlace) { tip->x, tip->y };
+  end->inside = (CeldPlace) { tip->x - tip->dx, tip->y - tip->dy };
+  end->dx     = tip->dx;
+  end->dy     = tip->dy;
+}
+
+void
 celd_line_end_set_corner (CeldCorner corner, CeldLineEnd *end)
 {
   clear_ink (end);

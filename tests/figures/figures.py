@@ -253,6 +253,21 @@ def ring_round_bar():
     return f
 
 
+def bay_beside_stub():
+    """In broad lines a part whose lower side has a gap between short stubs; below it another part stands aslant."""
+    f = Figure()
+    f.shape([(78, 134), (60, 160), (50, 188), (165, 188), (150, 150), (125, 120)], 11)
+    f.shape([(66, 85), (36, 95), (22, 115), (12, 136), (78, 136)], 11)
+    around = [math.radians(i) for i in range(0, 361, 2)]
+    f.shape([(115 + 50 * math.cos(a), 99 + 50 * math.sin(a)) for a in around], 11)
+    f.rub_out(24, 117, 62, 155)
+    f.stroke('scribbles', [(40, 112), (52, 104)], A)
+    f.stroke('scribbles', [(5, 195), (235, 195)], B)
+    f.stroke('scribbles', [(90, 170), (130, 170)], C)
+    f.stroke('scribbles', [(100, 90), (130, 90)], D)
+    return f
+
+
 def severed():
     """A stroke that runs over a contour and ends behind a later stroke of another colour, in a narrow part."""
     f = Figure()
@@ -458,10 +473,10 @@ def soft_on_white():
 
 
 FIGURES = [two_arrows, thick, contours, two_characters, frame, limbs, cycle, broken, pinched_little, pinched_much,
-           gap_beside_bay, hairline_gaps, stubs, ring_round_bar, severed, close_up, nearly_touches_frame, forgotten,
-           cut_off, unpainted_page, stopped_near, stopped_farther, stopped_far, open_bay, vein, notch, hairline,
-           stroke_on_contour, pencil_on_smooth_paper, pencil_on_rough_paper, cover_on_thick, cover_on_thicker,
-           soft_on_white]
+           gap_beside_bay, hairline_gaps, stubs, ring_round_bar, bay_beside_stub, severed, close_up,
+           nearly_touches_frame, forgotten, cut_off, unpainted_page, stopped_near, stopped_farther, stopped_far,
+           open_bay, vein, notch, hairline, stroke_on_contour, pencil_on_smooth_paper, pencil_on_rough_paper,
+           cover_on_thick, cover_on_thicker, soft_on_white]
 
 
 if __name__ == '__main__':
