@@ -23,11 +23,11 @@
 
 #define DAMPING          0.7  /* factor of the length of tangents (chosen, as all of these) */
 #define WOBBLE           0.28 /* radians: an angle of this size counts half */
-#define TRUSTED          0.7  /* radians off the chord: up to here an angle is followed */
-#define MOST_ANGLE       1.05 /* from here on it is not: 60 degrees */
+#define TRUSTED          1.05 /* radians off the chord: up to here, 60 degrees, an angle is followed */
+#define MOST_ANGLE       1.4  /* from here on it is not: 80 degrees */
 #define MOST_S           0.5  /* radians: the smaller of two angles that make an S may be this large */
 #define SPACING          3.0  /* pixels between places of the polyline */
-#define BESIDE           3    /* pixels between the end of a bridge and that of a boundary along it, at most */
+#define BRIDGE_MARGIN    3    /* pixels between the end of a bridge and that of a boundary along it, at most */
 #define SHORTEST_CLOSURE 0.75 /* pixels: shorter closures are not listed */
 
 /* ------------------------------------------------------------------ the curve */
@@ -120,7 +120,7 @@ add_old (const CeldChain *chain, const CeldCorner *corner, CeldClosures *closure
 static bool
 begins_at (CeldCorner corner, CeldBridgePixel pixel)
 {
-  return abs (pixel.x - corner.x) <= BESIDE && abs (pixel.y - corner.y) <= BESIDE;
+  return abs (pixel.x - corner.x) <= BRIDGE_MARGIN && abs (pixel.y - corner.y) <= BRIDGE_MARGIN;
 }
 
 /* A boundary along a bridge ends where that does.  Stubs that are shorter than they are wide have no direction of their

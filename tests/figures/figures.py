@@ -268,6 +268,16 @@ def bay_beside_stub():
     return f
 
 
+def rubbed_out_corner():
+    """A triangle whose upper corner is rubbed out: both lines still point to it."""
+    f = Figure()
+    f.shape([(120, 20), (200, 160), (40, 160)], 6)
+    f.rub_out(78, -22, 162, 62)
+    f.stroke('scribbles', [(90, 140), (150, 140)], A)
+    f.stroke('scribbles', [(5, 190), (235, 190)], B)
+    return f
+
+
 def severed():
     """A stroke that runs over a contour and ends behind a later stroke of another colour, in a narrow part."""
     f = Figure()
@@ -473,10 +483,10 @@ def soft_on_white():
 
 
 FIGURES = [two_arrows, thick, contours, two_characters, frame, limbs, cycle, broken, pinched_little, pinched_much,
-           gap_beside_bay, hairline_gaps, stubs, ring_round_bar, bay_beside_stub, severed, close_up,
-           nearly_touches_frame, forgotten, cut_off, unpainted_page, stopped_near, stopped_farther, stopped_far,
-           open_bay, vein, notch, hairline, stroke_on_contour, pencil_on_smooth_paper, pencil_on_rough_paper,
-           cover_on_thick, cover_on_thicker, soft_on_white]
+           gap_beside_bay, hairline_gaps, stubs, ring_round_bar, bay_beside_stub, rubbed_out_corner, severed,
+           close_up, nearly_touches_frame, forgotten, cut_off, unpainted_page, stopped_near, stopped_farther,
+           stopped_far, open_bay, vein, notch, hairline, stroke_on_contour, pencil_on_smooth_paper,
+           pencil_on_rough_paper, cover_on_thick, cover_on_thicker, soft_on_white]
 
 
 if __name__ == '__main__':

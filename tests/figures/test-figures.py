@@ -181,6 +181,12 @@ def bay_beside_stub(run):
     yield 'the bay below is page', r.colour(43, 150) == r.colour(30, 150) == figures.B
 
 
+def rubbed_out_corner(run):
+    r = run()
+    yield 'the closure bends towards the corner', r.colour(120, 52) == figures.A
+    yield 'the page is outside', r.colour(120, 25) == figures.B
+
+
 def severed(run):
     r = run()
     yield 'what the stroke ran into keeps its colour', r.colour(190, 60) == r.colour(190, 140) == figures.B
@@ -266,9 +272,10 @@ def cover(run):
 
 
 OUTCOMES = [two_arrows, thick, contours, two_characters, frame, limbs, cycle, broken, pinched, pinched,
-            gap_beside_bay, hairline_gaps, stubs, ring_round_bar, bay_beside_stub, severed, close_up,
-            nearly_touches_frame, forgotten, cut_off, unpainted_page, stopped_short, stopped_short, stopped_short,
-            no_room, no_room, no_room, hairline, stroke_on_contour, hairline, hairline, cover, cover, soft_on_white]
+            gap_beside_bay, hairline_gaps, stubs, ring_round_bar, bay_beside_stub, rubbed_out_corner, severed,
+            close_up, nearly_touches_frame, forgotten, cut_off, unpainted_page, stopped_short, stopped_short,
+            stopped_short, no_room, no_room, no_room, hairline, stroke_on_contour, hairline, hairline, cover, cover,
+            soft_on_white]
 
 
 def main():
