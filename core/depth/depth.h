@@ -81,8 +81,9 @@ bool       celd_has_detour (const CeldPixelLinks *links, int x, int y, bool down
 typedef struct { double usual, most; } CeldGapLength;
 
 /* For a drawing with strokes of this width: about 6 stroke widths, hence 7 from one end of the line to the other; or as
- * many widths of the lines that it interrupts, if they are up to 4 times as broad.  Hairlines: 16 pixels. */
-CeldGapLength celd_longest_gap (int stroke);
+ * many widths of the lines that it interrupts, if they are up to 4 times as broad.  Hairlines: 16 pixels, in a picture
+ * of this size 24 from 1 megapixel on. */
+CeldGapLength celd_longest_gap (int stroke, int width, int height);
 
 /* Fills in `cut`: the edges at which ink cuts depth, and the gaps that hold it.  A gap is a boundary of levels on paper
  * that meets ink and has no more than this length.  Where `borders` (NULL: nowhere), the ink for segmentation, is ink

@@ -91,7 +91,8 @@ celd_program_hold_gaps (CeldProgram *program, const CeldLabels *regions, const C
     program->stroke = celd_stroke_width (program->ink);
   gaps.edges.radius = celd_edge_radius (program->stroke);
   if (regions)
-    status = find_gaps (&gaps, regions, borders, celd_longest_gap (program->stroke), host);
+    status = find_gaps (&gaps, regions, borders,
+                        celd_longest_gap (program->stroke, program->ink->width, program->ink->height), host);
   if (status == CELD_OK)
     exchange_gaps (program, &gaps, settings->weight_floor);
   celd_free (gaps.level);

@@ -23,7 +23,9 @@
 #include <math.h>
 
 #define LONGEST_GAP   12 /* half stroke widths, rounded up; chosen */
-#define HAIRLINE_GAP  16 /* pixels: the width of a line of one or two pixels is hardly a measure; chosen */
+#define HAIRLINE_GAP  24 /* pixels: the width of a line of one or two pixels is hardly a measure; chosen, as the next two */
+#define SMALLEST_GAP  16 /* pixels of that in a small picture, ... */
+#define GAPS_A_SIDE   42 /* ... of which this many have room along the longer side in a larger one */
 #define MOST_BROADER  4  /* times as broad as most lines; broader ink is an area; chosen */
 #define BROADEST_AREA 3  /* times as broad as a line has to be; broader ink is an area; chosen */
 #define DISC_PLACES   16 /* on the rim of a disc, and halfway to it, that are looked at; chosen */
@@ -241,9 +243,11 @@ celd_gaps_hold (const CeldDepthEdges *edges, const CeldPlane *borders, const flo
 }
 
 CeldGapLength
-celd_longest_gap (int stroke)
+celd_longest_gap (int stroke, int width, int height)
 {
-  double usual = fmax (HAIRLINE_GAP, LONGEST_GAP * ((stroke + 1) / 2));
+  int    side = width > height ? width : height;
+  double hairline = fmin (HAIRLINE_GAP, fmax (SMALLEST_GAP, (double) side / GAPS_A_SIDE));
+  double usual = fmax (hairline, LONGEST_GAP * ((stroke + 1) / 2));
 
   return (CeldGapLength) { usual, MOST_BROADER * usual };
 }
@@ -260,7 +264,8 @@ celd_depth_edges (const CeldPlane *ink, const CeldPlane *borders, const float *l
     return CELD_OK;
   *cut = celd_alloc ((size_t) ink->width * (size_t) ink->height, sizeof **cut);
   if (*cut)
-    status = celd_gaps_hold (edges, borders, level, celd_longest_gap (stroke), host, *cut);
+    status = celd_gaps_hold (edges, borders, level, celd_longest_gap (stroke, ink->width, ink->height), host,
+                             *cut);
   edges->cut = *cut;
   return status;
 }

@@ -269,7 +269,7 @@ celd_smooth (const CeldPlane *ink, const CeldPlane *borders, const CeldPlane *le
     return CELD_BAD_VALUE;
   stroke           = celd_stroke_width (ink);
   smoothing.radius = celd_edge_radius (stroke);
-  smoothing.gap    = celd_longest_gap (stroke);
+  smoothing.gap    = celd_longest_gap (stroke, ink->width, ink->height);
   status = celd_smooth_update (NULL, &smoothing, host, &made, &how);
   for (int y = 0; y < depth->height && status == CELD_OK; y++)
     memcpy (&CELD_AT (depth, 0, y), &CELD_AT (&made, 0, y), (size_t) depth->width * sizeof *depth->data);

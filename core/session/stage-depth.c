@@ -210,7 +210,7 @@ celd_make_depth (CeldSession *s, const CeldHost *host)
     {
       measure_stroke_width (s);
       smoothing.radius = celd_edge_radius (s->stroke_width);
-      smoothing.gap    = celd_longest_gap (s->stroke_width);
+      smoothing.gap    = celd_longest_gap (s->stroke_width, s->levels.width, s->levels.height);
       choose_anchors (&anchors);
       status = smooth (s, STAGE_DEPTH, &anchors, &smoothing, host, &s->smooth_state, &s->depth);
     }
@@ -305,7 +305,7 @@ celd_make_preview (CeldSession *s, const CeldHost *host)
     {
       measure_stroke_width (s);
       smoothing.radius   = celd_edge_radius (s->stroke_width) / BLOCK_SIDE;
-      smoothing.gap      = celd_longest_gap (s->stroke_width);
+      smoothing.gap      = celd_longest_gap (s->stroke_width, s->levels.width, s->levels.height);
       smoothing.gap.usual /= BLOCK_SIDE;
       smoothing.gap.most /= BLOCK_SIDE;
       smoothing.borders  = borders.data ? &borders : NULL;

@@ -71,6 +71,19 @@ gaps_of_hairlines_hold (void)
     }
 }
 
+/* In a larger picture more of them do; lines of three pixels need not be looked at for that. */
+static void
+gaps_of_hairlines_grow_with_the_picture (void)
+{
+  for (int stroke = 1; stroke <= 2; stroke++)
+    {
+      NEAR (celd_longest_gap (stroke, 128, 96).usual, 16, 0);
+      NEAR (celd_longest_gap (stroke, 600, 840).usual, 20, 0);
+      NEAR (celd_longest_gap (stroke, 1024, 768).usual, celd_longest_gap (3, 1024, 768).usual, 0.5);
+      NEAR (celd_longest_gap (stroke, 9000, 9000).usual, celd_longest_gap (3, 9000, 9000).usual, 0);
+    }
+}
+
 /* A blue contour is ink for segmentation only.  It keeps what it covers smooth, and the rest of the wall cuts. */
 static void
 a_contour_for_segmentation_keeps_a_gap_smooth (void)
@@ -316,6 +329,7 @@ main (void)
 {
   RUN (a_gap_holds_and_an_opening_does_not);
   RUN (gaps_of_hairlines_hold);
+  RUN (gaps_of_hairlines_grow_with_the_picture);
   RUN (gaps_of_broad_lines_hold);
   RUN (gaps_of_the_broadest_lines_hold);
   RUN (a_contour_for_segmentation_keeps_a_gap_smooth);
