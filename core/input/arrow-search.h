@@ -9,12 +9,15 @@
 
 #include "input/joined-arrows.h"
 
+#include <math.h>
+
 #define CELD_MOST_CHOSEN 250 /* arrows of connected paint, at most; chosen */
 #define CELD_SAME_COST   3   /* of two arrows along one line; chosen */
 #define CELD_ARM_LONG    5   /* length of a line that is no barb, in widths; chosen */
 #define CELD_ARM_BEGIN   1.5 /* widths from the end of a line to where its direction is measured; chosen */
 #define CELD_ARM_LED     8   /* widths by which lines are led on to the tips of heads; chosen */
 #define CELD_NEAR_ENDS   1.5 /* widths, and a pixel: ends of two arrows that are at one place, at most; chosen */
+#define CELD_SOFT_EDGE   0.5 /* pixels that a soft edge adds on either side of lines, and all round dots; chosen */
 #define CELD_ONE_PLACE   2   /* widths between ends of chosen arrows that are at one place, at most; chosen */
 
 /* A line inside the paint from one place to another.  cost: for how it bends and for paint that is narrow; bow: how far
@@ -54,9 +57,10 @@ typedef struct
   CeldShaft            *shaft;
   size_t                n_shafts, shaft_capacity;
 
-  /* Cells are squares of `step` pixels, and `area` in costs; of arrows that fade, too, one for each of some levels of
-   * opacity.  stamp: of each cell the last outline that has it. */
-  double                step, per_pixel, area; /* per_pixel: 1 / step */
+  /* Cells are squares of `step` pixels, `cell` in square widths, and `area` in costs; of arrows that fade, too, one for
+   * each of some levels of opacity, and of those with dots some for paint as wide as a dot.  stamp: of each cell the
+   * last outline that has it. */
+  double                step, per_pixel, cell, area; /* per_pixel: 1 / step */
   int                   columns, rows, levels;
   uint8_t              *painted;
   uint16_t             *covers;  /* of each cell: how many pieces that are chosen have it */
@@ -100,6 +104,13 @@ static inline bool
 celd_search_has_profiles (const CeldArrowSearch *s)
 {
   return s->style == CELD_ARROW_FADE || s->style == CELD_ARROW_TAPER;
+}
+
+/* The radius, in pixels, of the paint of a dot which is so many widths of its line without their soft edges. */
+static inline double
+celd_search_dot_radius (const CeldArrowSearch *s, double widths)
+{
+  return widths * fmax (0, s->width - 2 * CELD_SOFT_EDGE) + CELD_SOFT_EDGE;
 }
 
 /* How many cells there are in all levels, and in one. */
@@ -237,7 +248,7 @@ void celd_search_margins_find (CeldArrowSearch *search, double *margin);
 /* ------------------------------------------------------------------ search-rest.c */
 
 /* Of each chosen arrow, in square widths: the area of its head or dot that no line explains (seen), and of that what no
- * other head does (own), or none at another place (of_place); arrows share dots.  rest: the unexplained paint that is
+ * other head does (own), or none at another place (of_place: in all levels); arrows share dots.  rest: the unexplained paint that is
  * nearer to it than to others. */
 typedef struct
 {
@@ -262,7 +273,10 @@ bool celd_search_is_apart (const CeldArrowSearch *search, size_t place);
 /* Does chosen arrow i pass a place where others end so closely that it may end there, too? */
 bool celd_chosen_passes_end (const CeldArrowSearch *search, size_t i);
 
-/* Does it lead through a place where two others do, too?  Three that cross in one place more likely end there. */
+/* Does a chosen arrow pass a place so closely? */
+bool celd_search_is_passed (const CeldArrowSearch *search, size_t place);
+
+/* Does arrow i lead through a place where two others do, too?  Three that cross in one place more likely end there. */
 bool celd_chosen_is_crossed_twice (const CeldArrowSearch *search, size_t i);
 
 /* Does it lie on another one for long?  Then one of them may be part of the other. */

@@ -128,9 +128,9 @@ count_clear (const CeldJoinedLines *s, const CeldLineArrow *arrows)
   return n;
 }
 
-/* Makes arrows unclear that are clear in both ways, but in opposite directions.  Of the lines' arrows with heads also
- * those that the search has turned round, or found unclear: it sees which paint they leave unexplained.  Round dots
- * there is always some. */
+/* Makes arrows unclear that are clear in one way, and found in the opposite direction in the other.  Of the lines'
+ * arrows with heads also those that the search has found unclear: it sees which paint they leave unexplained.  Round
+ * dots there is always some. */
 static void
 leave_contradictions (const CeldJoinedLines *s, CeldLineArrow *one, const CeldJoinedLines *other, CeldLineArrow *found)
 {
@@ -139,7 +139,7 @@ leave_contradictions (const CeldJoinedLines *s, CeldLineArrow *one, const CeldJo
 
   for (size_t i = 0; i < s->graph.n_lines; i++)
     for (size_t k = 0; k < other->graph.n_lines && !one[i].unclear; k++)
-      if ((head || !found[k].unclear) && celd_points_apart (one[i].nearer, found[k].farther) < near &&
+      if (celd_points_apart (one[i].nearer, found[k].farther) < near &&
           celd_points_apart (one[i].farther, found[k].nearer) < near)
         one[i].unclear = found[k].unclear = CELD_REASON_MEETING;
       else if (head && celd_points_apart (one[i].nearer, found[k].nearer) < near &&

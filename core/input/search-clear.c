@@ -28,7 +28,8 @@
 #define DOT_ROUND_REST     0.4  /* ... or all round one with a dot */
 #define ARROW_LEAST_OWN    0.8  /* area of the paint of a head that no line explains */
 #define ARROW_STRAIGHT     0.75 /* radians by which arrows with heads turn that may go on, measured; ... */
-#define DOT_STRAIGHT       0.6  /* ... and those with dots */
+#define DOT_STRAIGHT       0.6  /* ... those with dots, ... */
+#define FOUR_TURN          0.8  /* ... and where four ends may be two lines that cross */
 #define ARROW_PASS_TURN    0.45 /* the same where one of several arrows may pass */
 #define WAY_FROM           5    /* from the end of a line to where its direction is measured */
 #define SHORTEST           7    /* length of an arrow */
@@ -73,9 +74,9 @@ compare_with_graph (Clearness *r, CeldLineArrow *other)
       }
 }
 
-/* Is one of the arrows that end at a place about straight on from arrow i? */
+/* Is one of the arrows that end at a place straight on from arrow i, but for a turn? */
 static bool
-has_partner (const Clearness *r, size_t place, size_t i, CeldPoint way)
+has_partner (const Clearness *r, size_t place, size_t i, CeldPoint way, double turn)
 {
   const CeldArrowSearch *s = r->s;
 
@@ -88,9 +89,25 @@ has_partner (const Clearness *r, size_t place, size_t i, CeldPoint way)
           {
             CeldPoint other = celd_shaft_way (shaft, end, WAY_FROM * s->width);
 
-            if (way.x * other.x + way.y * other.y < -cos (s->style == CELD_ARROW_DOT ? DOT_STRAIGHT : ARROW_STRAIGHT))
+            if (way.x * other.x + way.y * other.y < -cos (turn))
               return true;
           }
+    }
+  return false;
+}
+
+/* Is the head or dot of an arrow seen at a place? */
+static bool
+is_marked (const Clearness *r, size_t place)
+{
+  const CeldArrowSearch *s = r->s;
+
+  for (size_t k = 0; k < s->choice.n; k++)
+    {
+      const CeldArrowOption *o = &s->option[s->choice.item[k]];
+
+      if (s->shaft[o->shaft].place[o->end] == place && r->paint.of_place[k] >= ARROW_LEAST_OWN)
+        return true;
     }
   return false;
 }
@@ -102,7 +119,10 @@ is_shown (const Clearness *r, size_t place)
 {
   const CeldArrowSearch *s = r->s;
   bool                   straight = false, bent = false;
+  double                 turn = s->style == CELD_ARROW_DOT ? DOT_STRAIGHT : ARROW_STRAIGHT;
 
+  if (is_marked (r, place))
+    return true;
   for (size_t k = 0; k < s->choice.n; k++)
     {
       const CeldArrowOption *o = &s->option[s->choice.item[k]];
@@ -111,9 +131,7 @@ is_shown (const Clearness *r, size_t place)
       for (int end = 0; end < 2; end++)
         if (shaft->place[end] == place)
           {
-            if (o->end == end && r->paint.of_place[k] >= ARROW_LEAST_OWN)
-              return true;
-            if (has_partner (r, place, k, celd_shaft_way (shaft, end, WAY_FROM * s->width)))
+            if (has_partner (r, place, k, celd_shaft_way (shaft, end, WAY_FROM * s->width), turn))
               straight = true;
             else
               bent = true;
@@ -189,6 +207,35 @@ may_pass (const Clearness *r, size_t i)
       if (celd_chosen_shaft (s, k)->place[ends % 2] == a->place[ends / 2] &&
           may_be_one (r, i, ends / 2, k, ends % 2))
         return true;
+  return false;
+}
+
+/* Do four arrows end at a place, each about straight on from another? */
+static bool
+is_crossing (const Clearness *r, size_t place)
+{
+  const CeldArrowSearch *s = r->s;
+
+  for (size_t k = 0; k < s->choice.n; k++)
+    for (int end = 0; end < 2; end++)
+      if (celd_chosen_shaft (s, k)->place[end] == place &&
+          !has_partner (r, place, k, celd_shaft_way (celd_chosen_shaft (s, k), end, WAY_FROM * s->width), FOUR_TURN))
+        return false;
+  return s->arrows_at[place] == 4;
+}
+
+/* Does arrow i end with others, without a head or dot, where a third one passes, or where four ends look like a crossing?
+ * Then it may be part of one that crosses there. */
+static bool
+may_cross (const Clearness *r, size_t i)
+{
+  const CeldArrowSearch *s = r->s;
+  const size_t          *place = celd_chosen_shaft (s, i)->place;
+
+  for (int end = 0; end < 2; end++)
+    if (!is_marked (r, place[end]) && s->arrows_at[place[end]] > 1 &&
+        (celd_search_is_passed (s, place[end]) || is_crossing (r, place[end])))
+      return true;
   return false;
 }
 
@@ -293,6 +340,8 @@ why_unclear (const Clearness *r, size_t i)
   if (is_double (r, i))
     return CELD_REASON_ALIKE;
   if (!(dot && r->agreed[i]) && (!is_shown (r, shaft->place[0]) || !is_shown (r, shaft->place[1])))
+    return CELD_REASON_MEETING;
+  if (may_cross (r, i))
     return CELD_REASON_MEETING;
   if (r->agreed[i])
     return is_explained (r, i) && !celd_chosen_is_on_another (s, i) ? CELD_REASON_NONE : CELD_REASON_MEETING;

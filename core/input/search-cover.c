@@ -5,6 +5,9 @@
  * its line as it is wide there; of paint that fades there are cells in several levels, of which a shaft explains those
  * up to its opacity.
  *
+ * Where arrows have dots, there are more levels of paint that is as wide as one, for whoever paints a dot means that an
+ * arrow begins there: a line that passes a dot must cost more than two that end and begin there.
+ *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "base/base.h"
@@ -24,6 +27,8 @@
 #define USUAL_BOW    0.06
 #define COVER_LEVELS 4    /* of opacity, ... */
 #define LEVEL_MORE   0.1  /* ... and opacity more that a shaft explains */
+#define WIDE         0.9  /* distance from the edge in the middle of the smallest dot; ... */
+#define WIDE_LEVELS  3    /* ... and levels of paint that is so wide: a dot beside a line costs more than one more arrow */
 #define THICK        1.12 /* distance from the middle of a line of strength 1 to the edge of its paint */
 #define LEAST_TAIL   0.7  /* strength of a tail, at least, ... */
 #define TAIL_FROM    4    /* ... so many samples from its end, where others may lie on it, ... */
@@ -42,22 +47,54 @@ centre_of (const CeldArrowSearch *s, int x, int y)
   return (CeldPoint) { (x + 0.5) * s->step, (y + 0.5) * s->step };
 }
 
-/* Is there paint of a level at a point? */
+/* Is there paint of a level of opacity at a point? */
 static bool
 is_painted (const CeldArrowSearch *s, CeldPoint p, int level)
 {
   return celd_search_room (s, p) > 0 && (!level || celd_search_strength (s, p) >= (double) level / s->levels);
 }
 
+/* Paints the levels of a wide disc round a cell. */
+static void
+paint_wide (CeldArrowSearch *s, int column, int row, double radius)
+{
+  int    reach = (int) (radius / s->step);
+  size_t plane = celd_search_plane (s);
+
+  for (int y = row > reach ? row - reach : 0; y <= row + reach && y < s->rows; y++)
+    for (int x = column > reach ? column - reach : 0; x <= column + reach && x < s->columns; x++)
+      {
+        size_t c = (size_t) y * (size_t) s->columns + (size_t) x;
+
+        if (s->painted[c] && hypot (x - column, y - row) * s->step <= radius)
+          for (int level = 1; level < s->levels; level++)
+            s->painted[(size_t) level * plane + c] = 1;
+      }
+}
+
+/* Paints the levels of paint in which a disc fits that is as wide as a dot: no line is, nor is a crossing of two. */
+static void
+find_wide (CeldArrowSearch *s)
+{
+  double radius = celd_search_dot_radius (s, WIDE);
+
+  for (int y = 0; y < s->rows; y++)
+    for (int x = 0; x < s->columns; x++)
+      if (celd_search_room (s, centre_of (s, x, y)) >= radius)
+        paint_wide (s, x, y, radius);
+}
+
 CeldStatus
 celd_search_cells_new (CeldArrowSearch *s)
 {
+  bool   fade = s->style == CELD_ARROW_FADE;
   size_t n;
 
   s->step    = fmax (1, s->width / COVER_CELLS);
   s->per_pixel = 1 / s->step;
-  s->levels  = s->style == CELD_ARROW_FADE ? COVER_LEVELS : 1;
-  s->area    = UNEXPLAINED * s->step * s->step / (s->width * s->width) / s->levels;
+  s->levels  = fade ? COVER_LEVELS : s->style == CELD_ARROW_DOT ? WIDE_LEVELS : 1;
+  s->cell    = s->step * s->step / (s->width * s->width) / (fade ? s->levels : 1);
+  s->area    = UNEXPLAINED * s->cell;
   s->columns = (int) (s->mask->width / s->step) + 1;
   s->rows    = (int) (s->mask->height / s->step) + 1;
   n          = celd_search_cells (s);
@@ -66,11 +103,13 @@ celd_search_cells_new (CeldArrowSearch *s)
   s->stamp   = celd_alloc0 (n, sizeof *s->stamp);
   if (!s->painted || !s->covers || !s->stamp)
     return CELD_NO_MEMORY;
-  for (int level = 0; level < s->levels; level++)
+  for (int level = 0; level < (fade ? s->levels : 1); level++)
     for (int y = 0; y < s->rows; y++)
       for (int x = 0; x < s->columns; x++)
         s->painted[(size_t) level * celd_search_plane (s) + (size_t) y * (size_t) s->columns + (size_t) x] =
           is_painted (s, centre_of (s, x, y), level);
+  if (s->style == CELD_ARROW_DOT)
+    find_wide (s);
   return CELD_OK;
 }
 
@@ -339,7 +378,8 @@ CeldStatus
 celd_search_options_new (CeldArrowSearch *s)
 {
   size_t     n = celd_search_cells (s), nothing = 0;
-  Gather     g = { .s = s, .levels = 1, .cell = celd_alloc (n, sizeof *g.cell), .own = celd_alloc0 (n, sizeof *g.own) };
+  int        levels = s->style == CELD_ARROW_DOT ? s->levels : 1;
+  Gather     g = { .s = s, .levels = levels, .cell = celd_alloc (n, sizeof *g.cell), .own = celd_alloc0 (n, sizeof *g.own) };
   double    *cost = celd_alloc (s->n_places + 1, sizeof *cost);
   CeldStatus status = g.cell && g.own && cost ? CELD_OK : CELD_NO_MEMORY;
 

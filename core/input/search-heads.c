@@ -56,7 +56,7 @@
 #define FIT_OFF       0.2  /* cost of a tip that is off its place, by the distance */
 #define DOT_STEP      0.25 /* between places that are tried for the centre of a dot, ... */
 #define DOT_STEPS     2    /* ... of which so many are on either side */
-#define FIT_DOT_LEAST 1.1  /* radius of a dot, at least, ... */
+#define FIT_DOT_LEAST 1.1  /* radius of a dot, at least, without soft edges, ... */
 #define DOT_MOST      1.9  /* ... and at most */
 #define FIT_DOT_MORE  0.2  /* ... and more that its paint has */
 #define DOT_OFF       0.05
@@ -344,15 +344,14 @@ is_circle_painted (const CeldArrowSearch *s, CeldPoint centre, double radius)
 CeldHeadOutline
 celd_search_dot_fit (const CeldArrowSearch *s, CeldPoint place)
 {
-  double          w = s->width, best = INFINITY, radius = FIT_DOT_LEAST;
+  double          w = s->width, best = INFINITY, least = celd_search_dot_radius (s, FIT_DOT_LEAST) / w, radius = least;
   CeldHeadOutline dot = { .kind = CELD_OUTLINE_DOT, .tip = place };
 
   for (int x = -DOT_STEPS; x <= DOT_STEPS; x++)
     for (int y = -DOT_STEPS; y <= DOT_STEPS; y++)
       {
         CeldPoint centre = { place.x + x * DOT_STEP * w, place.y + y * DOT_STEP * w };
-        double    cost = CELD_PI * FIT_DOT_LEAST * FIT_DOT_LEAST * bare_disc (s, centre, FIT_DOT_LEAST * w) +
-                         DOT_OFF * hypot (x, y);
+        double    cost = CELD_PI * least * least * bare_disc (s, centre, least * w) + DOT_OFF * hypot (x, y);
 
         if (cost < best)
           {

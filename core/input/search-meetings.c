@@ -127,6 +127,15 @@ celd_chosen_passes_end (const CeldArrowSearch *s, size_t i)
 }
 
 bool
+celd_search_is_passed (const CeldArrowSearch *s, size_t place)
+{
+  for (size_t k = 0; k < s->choice.n; k++)
+    if (leads_through (s, k, place, PASS_APART, PASS_APART_FROM))
+      return true;
+  return false;
+}
+
+bool
 celd_chosen_is_crossed_twice (const CeldArrowSearch *s, size_t i)
 {
   for (size_t p = 0; p < s->n_places; p++)

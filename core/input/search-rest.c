@@ -14,13 +14,6 @@
 #define REST_REACH 1.5  /* from a line to unexplained paint round it, ... */
 #define REST_ENDS  3.5  /* ... and from its ends */
 
-/* Of a cell, in square widths. */
-static double
-cell_area (const CeldArrowSearch *s)
-{
-  return s->step * s->step / (s->width * s->width) / s->levels;
-}
-
 /* Adds `more` to the count of each cell that heads or dots have which are where that of arrow i is. */
 static void
 count_marks (const CeldArrowSearch *s, size_t i, uint16_t *count, int more)
@@ -44,7 +37,7 @@ find_own (CeldArrowSearch *s, CeldChoicePaint *paint)
 {
   size_t    n = celd_search_cells (s);
   uint16_t *all = celd_alloc0 (n, sizeof *all), *here = celd_alloc0 (n, sizeof *here);
-  double    area = cell_area (s);
+  double    area = s->cell;
 
   for (size_t i = 0; all && here && i < s->choice.n; i++)
     for (size_t k = 0; k < s->piece[s->option[s->choice.item[i]].mark].n; k++)
@@ -60,9 +53,11 @@ find_own (CeldArrowSearch *s, CeldChoicePaint *paint)
 
           if (s->covers[c] != all[c])
             continue;
+          paint->of_place[i] += all[c] == here[c] ? area : 0;
+          if (c >= celd_search_plane (s)) /* where many lines meet, their paint is as wide as a dot */
+            continue;
           paint->seen[i] += area;
           paint->own[i] += s->style == CELD_ARROW_DOT || all[c] == 1 ? area : 0;
-          paint->of_place[i] += all[c] == here[c] ? area : 0;
         }
       count_marks (s, i, here, -1);
     }
@@ -105,7 +100,7 @@ find_rest (CeldArrowSearch *s, CeldChoicePaint *paint)
                 nearest = k;
               }
           }
-        paint->rest[nearest] += bare_levels (s, c) * cell_area (s);
+        paint->rest[nearest] += bare_levels (s, c) * s->cell;
       }
 }
 

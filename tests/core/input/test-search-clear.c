@@ -1,0 +1,129 @@
+/* Arrows of one colour that share ends: what else the same paint may be is left out.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "shared-ends.h"
+
+#define MOST_ARROWS 10
+
+/* Draws arrows; all that is read is theirs.  How many that are. */
+static int
+read_all (const Arrow *a, int n, CeldArrowStyle style)
+{
+  CeldPaint paint = blank (SIZE, SIZE);
+  Answer    answer;
+  int       found;
+
+  for (int k = 0; k < n; k++)
+    draw_arrow (&paint, &a[k], GREEN);
+  answer = read_paint (&paint, style);
+  found  = (int) count_read (&answer, a, n, style);
+  CHECK ((int) answer.relations.n == found);
+  forget (&answer);
+  free (paint.data);
+  return found;
+}
+
+/* A straight arrow to a dot that is hardly wider than a line. */
+static Arrow
+to_dot (Point tail, Point dot, double width)
+{
+  return arrow_at (tail, atan2 (dot.y - tail.y, dot.x - tail.x), hypot (dot.x - tail.x, dot.y - tail.y), width, 0.1, 0,
+                   DOT, 1.25 * width);
+}
+
+/* Five lead to small dots, from where others lead straight on to one place: no line passes a dot. */
+static void
+dots_on_the_way (void)
+{
+  uint32_t state = 53;
+  int      right = 0;
+
+  for (int i = 0; i < 30; i++)
+    {
+      double w = random_between (&state, 4, 6), angle = random_between (&state, 0, 6.28);
+      Point  hub = { SIZE / 2., SIZE / 2. };
+      Arrow  a[MOST_ARROWS];
+
+      for (int k = 0; k < 5; k++)
+        {
+          double length = random_between (&state, 11, 13) * w, more = length + random_between (&state, 8, 10) * w;
+          double bend = random_between (&state, -0.1, 0.1);
+          Point  dot = { hub.x + length * cos (angle), hub.y + length * sin (angle) };
+          Point  far = { hub.x + more * cos (angle + bend), hub.y + more * sin (angle + bend) };
+
+          a[2 * k]     = to_dot (hub, dot, w);
+          a[2 * k + 1] = to_dot (dot, far, w);
+          angle += random_between (&state, 0.9, 1.1);
+        }
+      right += read_all (a, 10, CELD_ARROW_DOT);
+    }
+  CHECK (right >= 0.95 * 30 * 10);
+}
+
+/* A dot at each corner of a ring: its arrows may lead round it either way. */
+static void
+a_ring_of_dots (void)
+{
+  uint32_t state = 59;
+
+  for (int i = 0; i < 40; i++)
+    {
+      double    w = random_between (&state, 3, 6), start = random_between (&state, 0, 6.28);
+      int       n = 3 + i % 3;
+      CeldPaint paint = blank (SIZE, SIZE);
+      Point     p[MOST_ARROWS];
+      Answer    answer;
+
+      for (int k = 0; k < n; k++)
+        {
+          double angle = start + (k + random_between (&state, -0.2, 0.2)) * 6.2832 / n, r = random_between (&state, 15, 18) * w;
+
+          p[k] = (Point) { SIZE / 2. + r * cos (angle), SIZE / 2. + r * sin (angle) };
+        }
+      for (int k = 0; k < n; k++)
+        {
+          Arrow a = to_dot (p[(k + 1) % n], p[k], w);
+
+          draw_arrow (&paint, &a, GREEN);
+        }
+      answer = read_paint (&paint, CELD_ARROW_DOT);
+      CHECK (answer.relations.n == 0 && answer.problems.n >= 1);
+      forget (&answer);
+      free (paint.data);
+    }
+}
+
+/* Two that bend where they cross: there is nothing that shows an end. */
+static void
+bent_at_a_crossing (void)
+{
+  uint32_t state = 61;
+
+  for (int i = 0; i < 120; i++)
+    {
+      double w = random_between (&state, 3, 6), start = random_between (&state, 0, 6.28);
+      double length = random_between (&state, 9, 14) * w, turn = random_between (&state, 1.2, 1.8);
+      Arrow  a[2];
+
+      for (int k = 0; k < 2; k++)
+        {
+          double angle = start + k * turn, bend = (k ? 1 : -1) * random_between (&state, 0.5, 0.75);
+          Point  middle = { SIZE / 2., SIZE / 2. };
+
+          a[k] = arrow_at (middle, angle, length, w, 0, 0, DOT, 1.4 * w);
+          a[k].point[0] = (Point) { middle.x - length * cos (angle + bend), middle.y - length * sin (angle + bend) };
+          a[k].point[1] = middle;
+        }
+      read_all (a, 2, CELD_ARROW_DOT);
+    }
+}
+
+int
+main (void)
+{
+  RUN (dots_on_the_way);
+  RUN (a_ring_of_dots);
+  RUN (bent_at_a_crossing);
+  return DONE;
+}
