@@ -248,8 +248,8 @@ void celd_search_margins_find (CeldArrowSearch *search, double *margin);
 /* ------------------------------------------------------------------ search-rest.c */
 
 /* Of each chosen arrow, in square widths: the area of its head or dot that no line explains (seen), and of that what no
- * other head does (own), or none at another place (of_place: in all levels); arrows share dots.  rest: the unexplained paint that is
- * nearer to it than to others. */
+ * other head does (own), or none at another place (of_place: in all levels); arrows share dots.  rest: the unexplained
+ * paint that is nearer to it than to others. */
 typedef struct
 {
   double seen[CELD_MOST_CHOSEN], own[CELD_MOST_CHOSEN], of_place[CELD_MOST_CHOSEN], rest[CELD_MOST_CHOSEN];

@@ -224,8 +224,8 @@ is_crossing (const Clearness *r, size_t place)
   return s->arrows_at[place] == 4;
 }
 
-/* Does arrow i end with others, without a head or dot, where a third one passes, or where four ends look like a crossing?
- * Then it may be part of one that crosses there. */
+/* Does arrow i end with others, without a head or dot, where a third one passes, or where four ends look like a
+ * crossing?  Then it may be part of one that crosses there. */
 static bool
 may_cross (const Clearness *r, size_t i)
 {

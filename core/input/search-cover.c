@@ -27,8 +27,8 @@
 #define USUAL_BOW    0.06
 #define COVER_LEVELS 4    /* of opacity, ... */
 #define LEVEL_MORE   0.1  /* ... and opacity more that a shaft explains */
-#define WIDE         0.9  /* distance from the edge in the middle of the smallest dot; ... */
-#define WIDE_LEVELS  3    /* ... and levels of paint that is so wide: a dot beside a line costs more than one more arrow */
+#define WIDE_ROOM    0.9  /* distance from the edge in the middle of the smallest dot; ... */
+#define WIDE_LEVELS  3    /* ... and levels of paint that is so wide */
 #define THICK        1.12 /* distance from the middle of a line of strength 1 to the edge of its paint */
 #define LEAST_TAIL   0.7  /* strength of a tail, at least, ... */
 #define TAIL_FROM    4    /* ... so many samples from its end, where others may lie on it, ... */
@@ -76,7 +76,7 @@ paint_wide (CeldArrowSearch *s, int column, int row, double radius)
 static void
 find_wide (CeldArrowSearch *s)
 {
-  double radius = celd_search_dot_radius (s, WIDE);
+  double radius = celd_search_dot_radius (s, WIDE_ROOM);
 
   for (int y = 0; y < s->rows; y++)
     for (int x = 0; x < s->columns; x++)
@@ -379,10 +379,13 @@ celd_search_options_new (CeldArrowSearch *s)
 {
   size_t     n = celd_search_cells (s), nothing = 0;
   int        levels = s->style == CELD_ARROW_DOT ? s->levels : 1;
-  Gather     g = { .s = s, .levels = levels, .cell = celd_alloc (n, sizeof *g.cell), .own = celd_alloc0 (n, sizeof *g.own) };
+  Gather     g = { .s = s, .levels = levels };
   double    *cost = celd_alloc (s->n_places + 1, sizeof *cost);
-  CeldStatus status = g.cell && g.own && cost ? CELD_OK : CELD_NO_MEMORY;
+  CeldStatus status;
 
+  g.cell = celd_alloc (n, sizeof *g.cell);
+  g.own  = celd_alloc0 (n, sizeof *g.own);
+  status = g.cell && g.own && cost ? CELD_OK : CELD_NO_MEMORY;
   if (status == CELD_OK && s->style == CELD_ARROW_DOT)
     status = add_dots (&g, cost);
   for (size_t k = 0; k < s->n_shafts && status == CELD_OK && s->style == CELD_ARROW_HEAD; k++)

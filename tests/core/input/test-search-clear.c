@@ -77,7 +77,8 @@ a_ring_of_dots (void)
 
       for (int k = 0; k < n; k++)
         {
-          double angle = start + (k + random_between (&state, -0.2, 0.2)) * 6.2832 / n, r = random_between (&state, 15, 18) * w;
+          double angle = start + (k + random_between (&state, -0.2, 0.2)) * 6.2832 / n;
+          double r = random_between (&state, 15, 18) * w;
 
           p[k] = (Point) { SIZE / 2. + r * cos (angle), SIZE / 2. + r * sin (angle) };
         }
