@@ -25,6 +25,8 @@
 #define NEAR_CLEAN    5       /* pixels: a pale line so near to a dark one may be its antialiased tip; chosen */
 #define NEAR_NOISY    2       /* pixels from the core of a pencil line to its edge; chosen */
 #define ROW_PART      1024    /* pixels of a row that are written at a time; chosen */
+#define DRAWN         0.25f   /* of the contrast of dark strokes, by which broad strokes are measured; chosen */
+#define BROAD_STEP    4       /* every so many pixels are enough for that */
 #define INK_PASSES    13      /* over the picture in the longest case, of about the same duration: for progress */
 
 typedef struct
@@ -226,6 +228,41 @@ measure_ink (InkWork *w)
   return CELD_OK;
 }
 
+/* Where nearly all that is drawn is dark, strokes may be much broader than usual: a broad pencil is pale in places, which
+ * are no areas for that.  Grey areas would be paler than most. */
+static CeldStatus
+measure_widest (InkWork *w)
+{
+  int        shorter = w->contrast.width < w->contrast.height ? w->contrast.width : w->contrast.height;
+  float      drawn = celd_most (w->faintest, DRAWN * w->dark);
+  size_t     all = 0, dark = 0;
+  CeldPlane  ink;
+  CeldStatus status = celd_plane_new ((w->contrast.width + BROAD_STEP - 1) / BROAD_STEP,
+                                      (w->contrast.height + BROAD_STEP - 1) / BROAD_STEP, &ink);
+  int        stroke;
+
+  if (status != CELD_OK)
+    return status;
+  for (int y = 0; y < ink.height; y++)
+    for (int x = 0; x < ink.width; x++)
+      {
+        float contrast = CELD_AT (&w->contrast, BROAD_STEP * x, BROAD_STEP * y);
+
+        CELD_AT (&ink, x, y) = contrast < drawn;
+        all += contrast >= drawn;
+        dark += contrast >= 0.5f * w->dark;
+      }
+  stroke = BROAD_STEP * celd_stroke_width (&ink);
+  stroke = stroke < shorter / 4 ? stroke : shorter / 4;
+  celd_free (ink.data);
+  if (4 * dark < 3 * all || stroke <= w->widest)
+    return CELD_OK;
+  w->widest = stroke;
+  celd_free (w->lines);
+  w->lines = celd_alloc (celd_erosion_work (w->contrast.width, w->widest), 1);
+  return w->lines ? CELD_OK : CELD_NO_MEMORY;
+}
+
 /* Whether a pixel shows how dark its stroke is.  Without noise a grey one may be the antialiased edge of a black
  * stroke, unless it is inside a grey stroke, on a line thinner than a pixel, or nothing dark is near.  `around` is the
  * largest contrast near it. */
@@ -405,6 +442,8 @@ celd_ink (const CeldDrawing *drawing, CeldInkMode mode, const CeldHost *host, Ce
     status = remove_noise (&w);
   if (status == CELD_OK)
     status = measure_ink (&w);
+  if (status == CELD_OK && w.noisy)
+    status = measure_widest (&w);
   if (status == CELD_OK)
     {
       pale = find_levels (&w);

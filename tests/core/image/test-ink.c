@@ -150,6 +150,57 @@ pencil_becomes_ink (void)
   CHECK (paper_mean (&least) >= 0.95f && least > 0.6f);
 }
 
+/* How much of a pixel a ring covers. */
+static float
+ring_coverage (int x, int y, float radius, float breadth)
+{
+  float u = (float) x - 79.5f, v = (float) y - 79.5f;
+
+  return fminf (fmaxf (0.5f * breadth + 0.5f - fabsf (sqrtf (u * u + v * v) - radius), 0), 1);
+}
+
+/* The palest ink at these distances from the middle. */
+static float
+palest_between (float least, float most)
+{
+  float worst = 0;
+
+  for (int i = 0; i < SIDE * SIDE; i++)
+    {
+      float away = hypotf ((float) (i % SIDE) - 79.5f, (float) (i / SIDE) - 79.5f);
+
+      if (away >= least && away <= most)
+        worst = fmaxf (worst, ink_of[i]);
+    }
+  return worst;
+}
+
+/* A pencil of 40 pixels is broader than strokes usually are, and much paler in places.  A disc that is filled with such
+ * a grey, with an outline of 4 pixels, is an area. */
+static void
+broad_pencil_becomes_ink (void)
+{
+  for (uint32_t k = 0; k < 8; k++)
+    {
+      uint32_t seed = 23 + k;
+
+      for (int i = 0; i < SIDE * SIDE; i++)
+        {
+          float pale = powf (sinf ((float) (i % SIDE + i / SIDE) / 16 + (float) k), 4), pores = check_noise (&seed);
+          float pressure = (0.85f - 0.5f * pale) * (1 - 0.1f * fabsf (pores));
+
+          luma_of[i] = 0.95f * (1 - pressure * ring_coverage (i % SIDE, i / SIDE, 45, 40)) + 0.01f * check_noise (&seed);
+        }
+      CHECK (make_ink (CELD_INK_AUTO, false) == CELD_OK);
+      CHECK (palest_between (28, 62) < 0.5f);
+      for (int i = 0; i < SIDE * SIDE; i++)
+        luma_of[i] = 0.95f - 0.5f * ring_coverage (i % SIDE, i / SIDE, 40, 4) -
+                     0.3f * ring_coverage (i % SIDE, i / SIDE, 0, 80) + 0.01f * check_noise (&seed);
+      CHECK (make_ink (CELD_INK_AUTO, false) == CELD_OK);
+      CHECK (palest_between (0, 5) > 0.5f);
+    }
+}
+
 /* A line of light blue in a grain of an eighth of its contrast: smoothing quietens that, so no part of it is lost. */
 static void
 pale_lines_in_grain_stay_whole (void)
@@ -204,15 +255,6 @@ ring_leaks (float paper)
           }
     }
   return false;
-}
-
-/* How much of a pixel a ring covers. */
-static float
-ring_coverage (int x, int y, float radius, float breadth)
-{
-  float u = (float) x - 79.5f, v = (float) y - 79.5f;
-
-  return fminf (fmaxf (0.5f * breadth + 0.5f - fabsf (sqrtf (u * u + v * v) - radius), 0), 1);
 }
 
 /* A hard pencil beside black ink on grainy paper. */
@@ -477,6 +519,7 @@ main (void)
   RUN (clean_art_with_solid_black_stays);
   RUN (white_stays_white);
   RUN (pencil_becomes_ink);
+  RUN (broad_pencil_becomes_ink);
   RUN (pale_lines_in_grain_stay_whole);
   RUN (pale_strokes_are_contours);
   RUN (faint_lines_beside_dark_ones_stay_closed);
