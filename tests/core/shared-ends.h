@@ -107,4 +107,22 @@ read_at_any_angles (int pictures, const uint8_t colours[4][3], double least)
   CHECK (right >= least * all);
 }
 
+/* Draws arrows of one colour and counts those that are read; no other one is. */
+static inline int
+read_green (const Arrow *a, int n, CeldArrowStyle style)
+{
+  CeldPaint paint = blank (SIZE, SIZE);
+  Answer    answer;
+  int       found;
+
+  for (int k = 0; k < n; k++)
+    draw_arrow (&paint, &a[k], GREEN);
+  answer = read_paint (&paint, style);
+  found  = (int) count_read (&answer, a, n, style);
+  CHECK ((int) answer.relations.n == found);
+  forget (&answer);
+  free (paint.data);
+  return found;
+}
+
 #endif

@@ -59,24 +59,13 @@ in_one_line (void)
   for (int i = 0; i < 90; i++)
     {
       CeldArrowStyle style = i % 2 ? CELD_ARROW_FADE : CELD_ARROW_TAPER;
-      CeldPaint      paint = blank (SIZE, SIZE);
       double         angle = random_between (&state, 0, 6.28), w = random_between (&state, 6, 8);
       Arrow          a[2];
-      Answer         answer;
-      int            found;
 
       for (int k = 0; k < 2; k++)
-        {
-          a[k] = shared_arrow (kinds[i % 3], k, angle + 3.14159265 * k, random_between (&state, 12, 17) * w, w, style,
-                               true);
-          draw_arrow (&paint, &a[k], GREEN);
-        }
-      answer = read_paint (&paint, style);
-      found  = (int) count_read (&answer, a, 2, style);
-      CHECK ((int) answer.relations.n == found);
-      right += found;
-      forget (&answer);
-      free (paint.data);
+        a[k] = shared_arrow (kinds[i % 3], k, angle + 3.14159265 * k, random_between (&state, 12, 17) * w, w, style,
+                             true);
+      right += read_green (a, 2, style);
     }
   CHECK (right >= 160);
 }
@@ -151,14 +140,11 @@ in_a_net (void)
 
   for (int i = 0; i < 40; i++)
     {
-      CeldPaint      paint = blank (SIZE, SIZE);
       CeldArrowStyle style = STYLES[i % 4];
       double         w = random_between (&state, 3, 5);
       Point          place[4];
       Arrow          a[5];
-      size_t         found;
       int            n = 3 + (int) check_random (&state, 3);
-      Answer         answer;
 
       for (int k = 0; k < 4; k++)
         place[k] = (Point) { random_between (&state, 30, SIZE - 30), random_between (&state, 30, SIZE - 30) };
@@ -168,13 +154,8 @@ in_a_net (void)
           double dx = to.x - from.x, dy = to.y - from.y;
 
           a[k] = through (to, atan2 (dy, dx), hypot (dx, dy), 1, w, style, i % 8 < 4);
-          draw_arrow (&paint, &a[k], GREEN);
         }
-      answer = read_paint (&paint, style);
-      found  = count_read (&answer, a, n, style);
-      CHECK (answer.relations.n == found);
-      forget (&answer);
-      free (paint.data);
+      read_green (a, n, style);
     }
 }
 
@@ -186,12 +167,9 @@ round_a_loop (void)
 
   for (int i = 0; i < 60; i++)
     {
-      double    turn = random_between (&state, 0, 6.28), w = random_between (&state, 4, 6);
-      CeldPaint paint = blank (SIZE, SIZE);
-      Point     place[3];
-      Arrow     a[3];
-      size_t    found;
-      Answer    answer;
+      double turn = random_between (&state, 0, 6.28), w = random_between (&state, 4, 6);
+      Point  place[3];
+      Arrow  a[3];
 
       for (int k = 0; k < 3; k++)
         {
@@ -205,13 +183,8 @@ round_a_loop (void)
           double length = hypot (to.x - from.x, to.y - from.y);
 
           a[k] = through (to, atan2 (to.y - from.y, to.x - from.x), length, 1, w, CELD_ARROW_HEAD, i % 4 == 0);
-          draw_arrow (&paint, &a[k], GREEN);
         }
-      answer = read_paint (&paint, CELD_ARROW_HEAD);
-      found  = count_read (&answer, a, 3, CELD_ARROW_HEAD);
-      CHECK (answer.relations.n == found);
-      forget (&answer);
-      free (paint.data);
+      read_green (a, 3, CELD_ARROW_HEAD);
     }
 }
 
@@ -314,14 +287,10 @@ thin_diagonals (void)
     }
 }
 
-/* Draws arrows that fade or taper, in an order at random, and counts those that are read; no other one is. */
+/* Draws arrows in an order at random and counts those that are read; no other one is. */
 static int
 read_all (Arrow *a, int n, CeldArrowStyle style, uint32_t *state)
 {
-  CeldPaint paint = blank (SIZE, SIZE);
-  Answer    answer;
-  int       found;
-
   for (int k = n - 1; k > 0; k--)
     {
       int   other = (int) check_random (state, (uint32_t) k + 1);
@@ -330,14 +299,7 @@ read_all (Arrow *a, int n, CeldArrowStyle style, uint32_t *state)
       a[k]     = a[other];
       a[other] = b;
     }
-  for (int k = 0; k < n; k++)
-    draw_arrow (&paint, &a[k], GREEN);
-  answer = read_paint (&paint, style);
-  found  = (int) count_read (&answer, a, n, style);
-  CHECK ((int) answer.relations.n == found);
-  forget (&answer);
-  free (paint.data);
-  return found;
+  return read_green (a, n, style);
 }
 
 /* Four that arrive at one place, and one more that arrives, or begins, where each of them begins. */

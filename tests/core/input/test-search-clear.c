@@ -6,24 +6,6 @@
 
 #define MOST_ARROWS 10
 
-/* Draws arrows; all that is read is theirs.  How many that are. */
-static int
-read_all (const Arrow *a, int n, CeldArrowStyle style)
-{
-  CeldPaint paint = blank (SIZE, SIZE);
-  Answer    answer;
-  int       found;
-
-  for (int k = 0; k < n; k++)
-    draw_arrow (&paint, &a[k], GREEN);
-  answer = read_paint (&paint, style);
-  found  = (int) count_read (&answer, a, n, style);
-  CHECK ((int) answer.relations.n == found);
-  forget (&answer);
-  free (paint.data);
-  return found;
-}
-
 /* A straight arrow to a dot that is hardly wider than a line. */
 static Arrow
 to_dot (Point tail, Point dot, double width)
@@ -56,7 +38,7 @@ dots_on_the_way (void)
           a[2 * k + 1] = to_dot (dot, far, w);
           angle += random_between (&state, 0.9, 1.1);
         }
-      right += read_all (a, 10, CELD_ARROW_DOT);
+      right += read_green (a, 10, CELD_ARROW_DOT);
     }
   CHECK (right >= 0.95 * 30 * 10);
 }
@@ -116,7 +98,7 @@ bent_at_a_crossing (void)
           a[k].point[0] = (Point) { middle.x - length * cos (angle + bend), middle.y - length * sin (angle + bend) };
           a[k].point[1] = middle;
         }
-      read_all (a, 2, CELD_ARROW_DOT);
+      read_green (a, 2, CELD_ARROW_DOT);
     }
 }
 
