@@ -205,6 +205,27 @@ paper_basin (const CeldPlane *ink, const CeldBasins *basins, int x, int y, uint3
   return true;
 }
 
+/* Of the largest disc in each merged basin, the squared radius; NULL: no memory. */
+static int32_t *
+find_widest (const CeldBasins *basins)
+{
+  int32_t *widest = celd_alloc0 (basins->n_merged + 1, sizeof *widest);
+
+  for (size_t k = 0; k < basins->n && widest; k++)
+    if (widest[basins->merged[k]] < basins->basin[k].squared)
+      widest[basins->merged[k]] = basins->basin[k].squared;
+  return widest;
+}
+
+/* Is a bridge a mere guess about where a bay opens? */
+static bool
+is_mouth (const CeldBridge *bridge, const CeldBasins *basins, const int32_t *widest, const CeldPassage *pair)
+{
+  int32_t a = widest[basins->merged[pair->a]], b = widest[basins->merged[pair->b]];
+
+  return bridge->ahead && !celd_is_clearly_wider (sqrt (a < b ? a : b), bridge->length / 2);
+}
+
 CeldStatus
 celd_bridges_find_passages (const CeldBridges *bridges, const CeldPlane *ink, const CeldBasins *basins,
                             CeldPassage **passage, size_t *n)
@@ -212,6 +233,8 @@ celd_bridges_find_passages (const CeldBridges *bridges, const CeldPlane *ink, co
   static const int step[4][2] = { { 1, 0 }, { 0, 1 }, { -1, 0 }, { 0, -1 } };
   CeldPassage     *found = NULL;
   size_t           n_found = 0, capacity = 0;
+  int32_t         *widest = find_widest (basins);
+  CeldStatus       status = widest ? CELD_OK : CELD_NO_MEMORY;
 
   for (size_t i = 0; i < bridges->n; i++)
     for (size_t k = bridges->item[i].first; k < bridges->item[i].first + bridges->item[i].n; k++)
@@ -220,14 +243,19 @@ celd_bridges_find_passages (const CeldBridges *bridges, const CeldPlane *ink, co
         CeldPassage     pair = { .a = celd_basin_at (basins, p.x, p.y), .doubt = p.ink / CELD_FAINTEST_INK,
                                  .narrow = !holds_nothing_back (&bridges->item[i], GAP * basins->stroke) };
 
-        for (int side = 0; side < 4; side++)
-          if (paper_basin (ink, basins, p.x + step[side][0], p.y + step[side][1], &pair.b) && pair.b != pair.a &&
-              celd_append (found, n_found, capacity, pair) != CELD_OK)
+        for (int side = 0; side < 4 && status == CELD_OK; side++)
+          if (paper_basin (ink, basins, p.x + step[side][0], p.y + step[side][1], &pair.b) && pair.b != pair.a)
             {
-              celd_free (found);
-              return CELD_NO_MEMORY;
+              pair.mouth = is_mouth (&bridges->item[i], basins, widest, &pair);
+              status     = celd_append (found, n_found, capacity, pair);
             }
       }
+  celd_free (widest);
+  if (status != CELD_OK)
+    {
+      celd_free (found);
+      return status;
+    }
   *passage = found;
   *n       = n_found;
   return CELD_OK;

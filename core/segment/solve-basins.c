@@ -23,6 +23,7 @@
 #include "solve/partition.h"
 
 #include <math.h>
+#include <stdlib.h>
 
 #define OUTLINE_SHARE    16 /* an outline towards the background counts 1 / so much as a barrier (chosen) */
 #define PASSAGE_WEAKNESS (1 << 20) /* of a pixel of a bridge as a barrier: as 1024 of the thinnest line, and far less
@@ -45,6 +46,7 @@ typedef struct
   CeldVote              *vote;
   CeldPinch             *pinch;
   CeldPassage           *passage;
+  bool                  *mouth;      /* of boundary i: a passage in it is the mouth of a bay */
   size_t                 n_links, n_votes, n_pinches, n_passages;
   size_t                 vote_capacity;
 } Graph;
@@ -81,6 +83,7 @@ graph_clear (Graph *g)
   celd_free (g->vote);
   celd_free (g->pinch);
   celd_free (g->passage);
+  celd_free (g->mouth);
 }
 
 /* ------------------------------------------------------------------ nodes */
@@ -228,20 +231,24 @@ meets_background (const Graph *g, uint32_t a, uint32_t b)
   return (p && g->task->palette.item[p - 1].background) || (q && g->task->palette.item[q - 1].background);
 }
 
-/* How weak a boundary is as a barrier.  Closed lines towards the background are taken to be outlines: an unpainted part
+/* How weak boundary i is as a barrier.  Closed lines towards the background are taken to be outlines: an unpainted part
  * inside one is rather a piece of the figure that the artist forgot. */
 static int64_t
-barrier_weakness (const Graph *g, const CeldBasinBoundary *b)
+barrier_weakness (const Graph *g, size_t i)
 {
-  return meets_background (g, b->a, b->b) && !b->opening ? b->weakness / OUTLINE_SHARE : b->weakness;
+  const CeldBasinBoundary *b = &g->task->basins->boundary[i];
+  bool                     open = b->opening || (g->mouth && g->mouth[i]);
+
+  return meets_background (g, b->a, b->b) && !open ? b->weakness / OUTLINE_SHARE : b->weakness;
 }
 
-/* How much weaker a boundary is by a passage.  What opens to the background may be a bay or a gap in an outline; over a
- * narrow gap between two other parts the line goes on as surely as its bridge is certain. */
+/* How much weaker a boundary is by a passage.  What opens to the background by more than a narrow gap may still be a
+ * gap in an outline, unless it is the mouth of a bay; over a narrow gap between two other parts the line goes on as
+ * surely as its bridge is certain. */
 static int64_t
 passage_weakness (const Graph *g, const CeldPassage *passage)
 {
-  if (meets_background (g, passage->a, passage->b))
+  if (meets_background (g, passage->a, passage->b) && !passage->mouth)
     return passage->narrow ? 0 : PASSAGE_WEAKNESS / OUTLINE_SHARE;
   return passage->narrow ? (int64_t) (PASSAGE_WEAKNESS * fmaxf (passage->doubt, LEAST_DOUBT)) : PASSAGE_WEAKNESS;
 }
@@ -258,7 +265,7 @@ list_links (const Graph *g, bool barriers, CeldLink *link)
     {
       const CeldBasinBoundary *b = &basins->boundary[i];
 
-      link[n++] = (CeldLink) { g->node[b->a], g->node[b->b], barriers ? barrier_weakness (g, b) : b->cost };
+      link[n++] = (CeldLink) { g->node[b->a], g->node[b->b], barriers ? barrier_weakness (g, i) : b->cost };
     }
   for (size_t i = 0; i < g->n_pinches && barriers; i++)
     link[n++] = (CeldLink) { g->node[g->pinch[i].a], g->node[g->pinch[i].b], g->pinch[i].weakness };
@@ -339,6 +346,27 @@ fix_painted (Graph *g, bool *painted)
   return unpainted;
 }
 
+/* Marks the boundaries in which bays open. */
+static CeldStatus
+mark_mouths (Graph *g)
+{
+  const CeldBasins *basins = g->task->basins;
+
+  g->mouth = celd_alloc0 (basins->n_boundaries, sizeof *g->mouth);
+  for (size_t i = 0; i < g->n_passages && g->mouth; i++)
+    {
+      const CeldPassage       *p = &g->passage[i];
+      CeldBasinBoundary        key = { .a = p->a < p->b ? p->a : p->b, .b = p->a < p->b ? p->b : p->a };
+      const CeldBasinBoundary *b = p->mouth ? bsearch (&key, basins->boundary, basins->n_boundaries, sizeof key,
+                                                       celd_basin_boundary_compare)
+                                            : NULL;
+
+      if (b)
+        g->mouth[b - basins->boundary] = true;
+    }
+  return g->mouth ? CELD_OK : CELD_NO_MEMORY;
+}
+
 /* Finds the pinches of nodes that are not fixed and the passages of all, and makes room for their links. */
 static CeldStatus
 find_ways (Graph *g)
@@ -354,6 +382,8 @@ find_ways (Graph *g)
   celd_free (wanted);
   if (status == CELD_OK && g->task->bridges)
     status = celd_bridges_find_passages (g->task->bridges, g->task->ink, basins, &g->passage, &g->n_passages);
+  if (status == CELD_OK && g->n_passages)
+    status = mark_mouths (g);
   if (status != CELD_OK || !(g->n_pinches + g->n_passages))
     return status;
   celd_free (g->link);

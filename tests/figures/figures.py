@@ -268,6 +268,20 @@ def bay_beside_stub():
     return f
 
 
+def bay_below_gap():
+    """A lamp on a post above a broad line, with a gap at its lower corner: the page reaches below it, as into a bay."""
+    f = Figure()
+    f.line([(-10, 135), (250, 135)], 14)
+    f.line([(120, 80), (120, 135)], 8)
+    around = [math.radians(i) for i in range(180, 361, 6)]
+    f.shape([(120 + 50 * math.cos(a), 80 + 38 * math.sin(a)) for a in around], 6)
+    f.rub_out(72, 70, 88, 86)
+    f.stroke('scribbles', [(100, 62), (140, 62)], A)
+    f.stroke('scribbles', [(5, 10), (235, 10)], B)
+    f.stroke('scribbles', [(5, 180), (235, 180)], C)
+    return f
+
+
 def rubbed_out_corner():
     """A triangle whose upper corner is rubbed out: both lines still point to it."""
     f = Figure()
@@ -483,9 +497,9 @@ def soft_on_white():
 
 
 FIGURES = [two_arrows, thick, contours, two_characters, frame, limbs, cycle, broken, pinched_little, pinched_much,
-           gap_beside_bay, hairline_gaps, stubs, ring_round_bar, bay_beside_stub, rubbed_out_corner, severed,
-           close_up, nearly_touches_frame, forgotten, cut_off, unpainted_page, stopped_near, stopped_farther,
-           stopped_far, open_bay, vein, notch, hairline, stroke_on_contour, pencil_on_smooth_paper,
+           gap_beside_bay, hairline_gaps, stubs, ring_round_bar, bay_beside_stub, bay_below_gap, rubbed_out_corner,
+           severed, close_up, nearly_touches_frame, forgotten, cut_off, unpainted_page, stopped_near,
+           stopped_farther, stopped_far, open_bay, vein, notch, hairline, stroke_on_contour, pencil_on_smooth_paper,
            pencil_on_rough_paper, cover_on_thick, cover_on_thicker, soft_on_white]
 
 

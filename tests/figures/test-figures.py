@@ -181,6 +181,12 @@ def bay_beside_stub(run):
     yield 'the bay below is page', r.colour(43, 150) == r.colour(30, 150) == figures.B
 
 
+def bay_below_gap(run):
+    r = run()
+    yield 'the gap is closed', r.colour(85, 74) == figures.A
+    yield 'the bay is page', r.colour(95, 105) == figures.B
+
+
 def rubbed_out_corner(run):
     r = run()
     yield 'the closure bends towards the corner', r.colour(120, 52) == figures.A
@@ -272,10 +278,10 @@ def cover(run):
 
 
 OUTCOMES = [two_arrows, thick, contours, two_characters, frame, limbs, cycle, broken, pinched, pinched,
-            gap_beside_bay, hairline_gaps, stubs, ring_round_bar, bay_beside_stub, rubbed_out_corner, severed,
-            close_up, nearly_touches_frame, forgotten, cut_off, unpainted_page, stopped_short, stopped_short,
-            stopped_short, no_room, no_room, no_room, hairline, stroke_on_contour, hairline, hairline, cover, cover,
-            soft_on_white]
+            gap_beside_bay, hairline_gaps, stubs, ring_round_bar, bay_beside_stub, bay_below_gap, rubbed_out_corner,
+            severed, close_up, nearly_touches_frame, forgotten, cut_off, unpainted_page, stopped_short,
+            stopped_short, stopped_short, no_room, no_room, no_room, hairline, stroke_on_contour, hairline,
+            hairline, cover, cover, soft_on_white]
 
 
 def main():
