@@ -1,7 +1,8 @@
-/* The ends of broad lines that were cut off, or rubbed out: two corners, and straight sides that lead to them.
+/* The ends of broad lines that were cut off, or rubbed out: two corners, and smooth sides that lead to them.
  *
  * The ink of such an end may be shorter than it is wide, hollow or aslant, so that its axis has nothing to do with the
- * direction of the line.  But what is left of its sides still has it.
+ * direction of the line.  But what is left of its sides still has it: at their corners, if they bend, as the horns of a
+ * crescent do that is left of a ring.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -13,12 +14,14 @@
 #include <math.h>
 
 #define CUT_REACH     0.4  /* stroke widths along the outline to either side of a corner (chosen, as all of these) */
+#define LEAST_REACH   6    /* pixels of it; less cannot tell a corner from steps of pixels */
 #define SHARP_BEND    0.64 /* cosine of the least turn at a corner: 50 degrees; a round end has 45 */
 #define BLUNT_END     0.1  /* stroke widths: so near to its corner a side may be bent */
 #define LONGEST_SIDE  0.6  /* stroke widths of a side that are looked at */
 #define SHORTEST_SIDE 0.4
-#define MOST_BENT     0.03 /* of that length: a pixel more is straight */
-#define SIDES_AGREE   0.87 /* cosine of the angle between both sides: 30 degrees */
+#define MOST_BENT     0.07 /* of that length, and a pixel: an arc of 1.8 times its radius */
+#define LEAST_BENT    1    /* pixel in the middle of a side; less may be steps of pixels */
+#define SIDES_AGREE   0.77 /* cosine of the angle between both sides: 40 degrees */
 #define RIGHT_ANGLE   0.94 /* sine of the angle between a single side and the way from corner to corner: 70 degrees */
 #define NARROWEST_CUT 0.5  /* stroke widths: of the line */
 #define WIDEST_CUT    1.5
@@ -54,6 +57,8 @@ next_corner (const CeldOutline *outline, ptrdiff_t i, ptrdiff_t end, ptrdiff_t r
     {
       double turn = turn_at (outline, i, reach);
 
+      if (reach >= 2 * LEAST_REACH) /* between hollow sides a corner is sharper nearby */
+        turn = fmin (turn, turn_at (outline, i, reach / 2));
       if (turn >= least)
         continue;
       least = turn;
@@ -62,10 +67,26 @@ next_corner (const CeldOutline *outline, ptrdiff_t i, ptrdiff_t end, ptrdiff_t r
   return best;
 }
 
-/* The unit direction of the side that leads to a corner, which may be blunt, if it is straight over that length.  `sign`:
+/* The unit direction in which a side reaches its corner, `blunt` pixels from its end: bent on as it bends from its far to
+ * its near half, or along its chord if it is straight as far as pixels show. */
+static CeldPlace
+bend_on (CeldPlace end, CeldPlace half, CeldPlace back, double blunt)
+{
+  double length = celd_distance_between (end, back), x = (end.x - back.x) / length, y = (end.y - back.y) / length;
+  double on = 0.5 + 2 * blunt / length;
+
+  if (fabs ((half.x - back.x) * y - (half.y - back.y) * x) < LEAST_BENT)
+    return (CeldPlace) { x, y };
+  x      = end.x - half.x + on * (end.x - 2 * half.x + back.x);
+  y      = end.y - half.y + on * (end.y - 2 * half.y + back.y);
+  length = hypot (x, y);
+  return (CeldPlace) { x / length, y / length };
+}
+
+/* The direction of the side that leads to a corner, which may be blunt, if it bends evenly over that length.  `sign`:
  * whether it lies along the outline or against it from there. */
 static bool
-is_straight (const CeldOutline *outline, ptrdiff_t corner, ptrdiff_t sign, double blunt, double length,
+is_side (const CeldOutline *outline, ptrdiff_t corner, ptrdiff_t sign, double blunt, double length,
              CeldPlace *towards)
 {
   ptrdiff_t first = corner + sign * (ptrdiff_t) blunt, i = first, most = (ptrdiff_t) (2 * length);
@@ -89,6 +110,7 @@ is_straight (const CeldOutline *outline, ptrdiff_t corner, ptrdiff_t sign, doubl
       if (fabs ((place.x - back.x) * towards->y - (place.y - back.y) * towards->x) > MOST_BENT * measured + 1)
         return false;
     }
+  *towards = bend_on (end, place_at (outline, (first + i) / 2), back, blunt);
   return true;
 }
 
@@ -96,7 +118,7 @@ static bool
 find_side (const CeldOutline *outline, ptrdiff_t corner, ptrdiff_t sign, double stroke, CeldPlace *towards)
 {
   for (double length = LONGEST_SIDE * stroke; length >= SHORTEST_SIDE * stroke; length *= 0.7)
-    if (is_straight (outline, corner, sign, BLUNT_END * stroke, length, towards))
+    if (is_side (outline, corner, sign, BLUNT_END * stroke, length, towards))
       return true;
   return false;
 }

@@ -248,6 +248,39 @@ a_stub_has_the_direction_of_its_line (void)
     }
 }
 
+/* A broad ring of which a disc was rubbed out is a crescent: its horns are cut off aslant, between sides that bend, but
+ * lead round the ring to each other. */
+static void
+horns_of_a_ring_lead_round_it (void)
+{
+  for (int angle = 0; angle < 360; angle += 20)
+    {
+      double   a = angle * PI / 180, radius = 74, width = 42, middle = 120;
+      CeldTip *tip = NULL;
+      Scene    s;
+      size_t   n, side[2] = { 0, 0 };
+
+      scene_open (240, 240, &s);
+      scene_line (&s, (CeldPlace) { middle, middle }, (CeldPlace) { middle, middle }, 2 * radius + width);
+      rub_out (&s, middle, middle, radius - width / 2);
+      rub_out (&s, middle + radius * cos (a), middle + radius * sin (a), 72);
+      n = find (&s, &tip);
+      for (size_t i = 0; i < n; i++)
+        {
+          double x = tip[i].x - middle, y = tip[i].y - middle, off = x * sin (a) - y * cos (a);
+          double round = (y * tip[i].dx - x * tip[i].dy) / hypot (x, y);
+
+          side[off > 0]++;
+          CHECK ((off > 0 ? -round : round) > cos (15 * PI / 180));
+          NEAR (tip[i].width, width, 6);
+        }
+      NEAR (side[0], 1, 0);
+      NEAR (side[1], 1, 0);
+      celd_free (tip);
+      scene_close (&s);
+    }
+}
+
 static void
 blots_and_areas_have_none (void)
 {
@@ -365,6 +398,7 @@ main (void)
   RUN (both_ends_at_a_gap_are_found);
   RUN (ends_that_were_rubbed_out_are_found);
   RUN (a_stub_has_the_direction_of_its_line);
+  RUN (horns_of_a_ring_lead_round_it);
   RUN (blots_and_areas_have_none);
   RUN (an_outlined_limb_is_no_line);
   RUN (ends_have_the_width_of_their_line);
