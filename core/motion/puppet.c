@@ -36,7 +36,7 @@ copy_layer (const CeldLayers *layers, size_t k, bool moves, int side, CeldPuppet
   *to    = (CeldPuppetLayer) { .box = box_on_grid (to->box, side), .label = layers->item[k].label,
                               .level = layers->item[k].level };
   pixels = celd_puppet_stride (to) * ((size_t) to->box.height + 2 * CELD_PUPPET_PAD);
-  rgba     = celd_alloc ((size_t) box.width * (size_t) box.height, 4 * sizeof *rgba);
+  rgba     = celd_alloc0 ((size_t) box.width * (size_t) box.height, 4 * sizeof *rgba); /* for an empty layer */
   to->rgba = celd_alloc0 (pixels, 4 * sizeof *to->rgba);
   to->cell = moves ? celd_alloc0 (pixels, sizeof *to->cell) : NULL;
   if (!rgba || !to->rgba || (moves && !to->cell))
@@ -58,21 +58,32 @@ copy_layer (const CeldLayers *layers, size_t k, bool moves, int side, CeldPuppet
   return CELD_OK;
 }
 
-/* Notes which layer is in front of each pixel, and the boxes of layers; returns the layer of the background, or their
- * number. */
+static void
+add_to_box (CeldPuppet *puppet, uint32_t k, int x, int y)
+{
+  puppet->layer[k].box = celd_rect_union (puppet->layer[k].box, (CeldRect) { x, y, 1, 1 });
+}
+
+/* Notes which layer is in front of each pixel, and the boxes of layers, with the pixels that they are in front of, also
+ * where art is transparent; returns the layer of the background, or their number. */
 static uint32_t
 look_at (const CeldLayers *layers, uint32_t background, CeldPuppet *puppet)
 {
   uint32_t page = (uint32_t) layers->n;
 
-  for (size_t p = 0; p < (size_t) layers->width * (size_t) layers->height; p++)
-    puppet->front[p] = layers->place[p] < layers->n ? layers->place[p]
-                                                    : layers->blend[layers->place[p] - layers->n].layer[0];
   for (size_t k = 0; k < layers->n; k++)
     {
       puppet->layer[k].box = box_of (layers, k);
       if (layers->item[k].label == background)
         page = (uint32_t) k;
+    }
+  for (size_t p = 0; p < (size_t) layers->width * (size_t) layers->height; p++)
+    {
+      int x = (int) (p % (size_t) layers->width), y = (int) (p / (size_t) layers->width);
+
+      puppet->front[p] = layers->place[p] < layers->n ? layers->place[p]
+                                                      : layers->blend[layers->place[p] - layers->n].layer[0];
+      add_to_box (puppet, puppet->front[p], x, y);
     }
   return page;
 }
@@ -89,7 +100,7 @@ take_strokes (const CeldPageStrokes *strokes, CeldPuppet *puppet)
 
         if (to)
           {
-            puppet->layer[to - 1].box = celd_rect_union (puppet->layer[to - 1].box, (CeldRect) { x, y, 1, 1 });
+            add_to_box (puppet, to - 1, x, y);
             puppet->front[p] = to - 1;
           }
       }

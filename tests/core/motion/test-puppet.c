@@ -495,6 +495,36 @@ levels_are_those_of_the_picture (void)
   layer_scene_close (&s);
 }
 
+/* Where art is transparent, a layer is in front all the same, and can be held there; the page moves, too. */
+static void
+layers_reach_as_far_as_they_are_in_front (void)
+{
+  LayerScene   s = figure (2);
+  CeldHandle   handle[] = { { .x = 60, .y = 190, .to_x = 70, .to_y = 190 } };
+  CeldSettings settings = celd_settings ();
+  CeldPuppet  *puppet = NULL;
+  CeldLayers  *layers;
+
+  for (int y = 0; y < SIDE; y++)
+    for (int x = 0; x < SIDE; x++)
+      if (hypot (x - 60, y - 75) > 12)
+        CELD_RGBA (&s.art, x, y)[3] = 0;
+  layers = layer_scene_cut (&s, 4, CELD_STORE_FLOAT, false);
+  CHECK (celd_puppet_new (layers, &s.ink, NULL, 0, NULL, &settings, NULL, &puppet) == CELD_OK);
+  for (int y = 0; y < SIDE; y++)
+    for (int x = 0; x < SIDE; x++)
+      {
+        CeldRect box = puppet->layer[puppet->front[y * SIDE + x]].box;
+
+        CHECK (x >= box.x && y >= box.y && x < box.x + box.width && y < box.y + box.height);
+      }
+  pose_and_draw (puppet, handle, 1, NULL);
+  CHECK (has_colour (70, 75, RED));
+  celd_layers_free (layers);
+  celd_puppet_free (puppet);
+  layer_scene_close (&s);
+}
+
 static void
 wrong_sizes_are_refused (void)
 {
@@ -533,6 +563,7 @@ main (void)
   RUN (poses_are_reported_with_places);
   RUN (the_worst_of_several_poses_is_kept);
   RUN (levels_are_those_of_the_picture);
+  RUN (layers_reach_as_far_as_they_are_in_front);
   RUN (wrong_sizes_are_refused);
   return DONE;
 }
