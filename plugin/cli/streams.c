@@ -11,18 +11,25 @@
 #include <string.h>
 #include <unistd.h>
 
-#define CHUNK 65536 /* bytes that are copied at a time */
+#define CHUNK     65536               /* bytes that are copied at a time */
+#define MOST_KIND ((guint64) 2 << 30)   /* bytes of standard input, if it is of a known kind: a PSD has no more */
+#define MOST_ELSE ((guint64) 256 << 20) /* bytes of other standard input, such as a device without end; chosen */
 
-/* Copies all of a file to another one. */
+/* Copies all of a file to another one, if that is no more than `most` bytes; errno says why not. */
 static bool
-copy (FILE *from, FILE *to)
+copy (FILE *from, guint64 most, FILE *to)
 {
-  char  *bytes = g_malloc (CHUNK);
-  size_t n;
-  bool   good = true;
+  char   *bytes = g_malloc (CHUNK);
+  guint64 all = 0;
+  size_t  n;
+  bool    good = true;
 
   while (good && (n = fread (bytes, 1, CHUNK, from)) > 0)
-    good = fwrite (bytes, 1, n, to) == n;
+    {
+      good = (all += n) <= most && fwrite (bytes, 1, n, to) == n;
+      if (all > most)
+        errno = EFBIG;
+    }
   good = good && !ferror (from) && !fflush (to);
   g_free (bytes);
   return good;
@@ -46,33 +53,40 @@ make_folder (CliStreams *streams)
   return streams->folder;
 }
 
-/* The ending of a file with this content, by its first bytes; other files need none. */
+/* The ending of a file that starts so; other files need none. */
 static const char *
-ending_of (const char *path)
+ending_of (const char *start, size_t n)
 {
   static const struct { const char *ending; size_t n; const char *bytes; } kinds[] = {
     { ".png", 4, "\x89PNG" }, { ".jpg", 2, "\xff\xd8" }, { ".tif", 4, "II*\0" }, { ".tif", 4, "MM\0*" },
     { ".exr", 4, "v/1\x01" }, { ".psd", 4, "8BPS" }, { ".npy", 6, "\x93NUMPY" }, { ".gif", 4, "GIF8" },
     { ".ora", 4, "PK\3\4" }, { ".webp", 4, "RIFF" }, { ".bmp", 2, "BM" },
   };
-  char   start[8] = { 0 };
-  FILE  *file = g_fopen (path, "rb");
-  size_t n = file ? fread (start, 1, sizeof start, file) : 0;
 
-  if (file)
-    fclose (file);
   for (size_t i = 0; i < G_N_ELEMENTS (kinds); i++)
     if (n >= kinds[i].n && !memcmp (start, kinds[i].bytes, kinds[i].n))
       return kinds[i].ending;
   return "";
 }
 
+/* Copies standard input to a file; `ending` gets that of its kind. */
+static bool
+keep_input (FILE *file, const char **ending)
+{
+  char   start[8] = { 0 };
+  size_t n = fread (start, 1, sizeof start, stdin);
+
+  *ending = ending_of (start, n);
+  return fwrite (start, 1, n, file) == n && copy (stdin, **ending ? MOST_KIND : MOST_ELSE, file);
+}
+
 bool
 cli_stream_input (CliStreams *streams, const char *what, char **name)
 {
-  char *path, *with_ending;
-  FILE *file;
-  bool  good;
+  const char *ending = "";
+  char       *path, *with_ending;
+  FILE       *file;
+  bool        good;
 
   if (streams->reader)
     return cli_error ("%s and %s cannot both be read from standard input.", streams->reader, what);
@@ -81,11 +95,11 @@ cli_stream_input (CliStreams *streams, const char *what, char **name)
   streams->reader = g_strdup (what);
   path = g_build_filename (streams->folder, "standard input", NULL);
   file = g_fopen (path, "wb");
-  good = file && copy (stdin, file);
-  good = file && !fclose (file) && good;
+  good = file && keep_input (file, &ending);
   if (!good)
-    cli_say ("Cannot read standard input: %s.", g_strerror (errno));
-  with_ending = g_strconcat (path, ending_of (path), NULL);
+    cli_say ("Cannot read standard input: %s.", errno == EFBIG ? "it is too large" : g_strerror (errno));
+  good = file && !fclose (file) && good;
+  with_ending = g_strconcat (path, ending, NULL);
   good = good && !g_rename (path, with_ending);
   g_free (path);
   g_free (*name);
@@ -123,7 +137,7 @@ cli_streams_write (CliStreams *streams)
 
   if (!file && streams->output)
     file = g_fopen (streams->output, "rb");
-  good = !streams->output || (file && copy (file, stdout));
+  good = !streams->output || (file && copy (file, G_MAXUINT64, stdout));
   if (file)
     fclose (file);
   g_free (unfinished);

@@ -119,13 +119,15 @@ cli_check_relations (CeldStatus status, const CliOptions *options, const CeldTex
   return cli_check_text (status, name, &place);
 }
 
-/* A pipe can be read once only, by the run itself. */
+/* A pipe can be read once only, by the run itself, which also refuses what is no text. */
 static char *
 text_of_file (const char *path)
 {
   gsize length;
   char *text = path && !cli_is_device (path) ? cli_file_read (path, CLI_MOST_TEXT, true, &length) : NULL;
 
+  if (text && strlen (text) < length)
+    text[0] = 0;
   return text ? text : g_strdup ("");
 }
 

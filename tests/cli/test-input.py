@@ -1041,6 +1041,11 @@ class BadInput(Test):
         refuses('deform', *input_files, '--keys', '/dev/zero', '--output', 'd.gif')
         refuses('compose', '/dev/zero', '--output', 'd.png')
         self.celdepth('popup', *input_files, '--relations-file', '/dev/null', '--depth', 'd.png')
+        with open('/dev/zero', 'rb') as endless:
+            done = subprocess.run([COMMAND, 'popup', '-', *input_files[1:], '--depth', 'd.png'], cwd=self.folder, stdin=endless,
+                                  capture_output=True, text=True, check=False)
+        self.assertEqual((done.returncode, done.stderr.splitlines()[0]),
+                         (2, 'celdepth: Cannot read standard input: it is too large.'))
         write_ora(self.path('page.ora'), (WIDTH, HEIGHT), '<stack/>', {})
         self.assertIn('"/dev/zero": it is not an ordinary file', self.celdepth(
             'popup', 'page.ora', '--relations-file', '/dev/zero', '--output-dir', 'out', code=1))
@@ -1096,9 +1101,12 @@ class BadInput(Test):
             file.write(b'1,1 > 2,\n')
         text = self.popup('--relations-file', 'relations.txt', '--depth', 'd.png', code=2)
         self.assertIn('relations.txt, line', text)
-        with open(self.path('relations.txt'), 'wb') as file:
-            file.write(b'1,1 > 2,2\0 and more')
-        self.assertIn('not a text file', self.popup('--relations-file', 'relations.txt', '--depth', 'd.png', code=1))
+        for content in (b'1,1 > 2,2\0 and more', '1,1 > 2,2'.encode('utf-16')):
+            with open(self.path('relations.txt'), 'wb') as file:
+                file.write(content)
+            self.assertIn('not a text file', self.popup('--relations-file', 'relations.txt', '--depth', 'd.png', code=1))
+        self.fails('popup', 'drawing.png', '--scribbles', 'scribbles.png', '--relations-file', 'drawing.png', '--depth',
+                   'd.png', naming='Cannot read "drawing.png": it is not a text file.')
 
     def test_contradictions(self):
         """Code 3, both relations are listed, and the others are ordered."""
