@@ -125,22 +125,21 @@ strokes_input (const CeldOperation *operation, const CeldPaint *strokes)
   return celd_op_add_input (input, strokes->data, 4 * (gsize) strokes->width * (gsize) strokes->height);
 }
 
-/* The fills of a coloured drawing may be scribbles with its lines in them, which regions can be found by. */
 gboolean
 celd_op_check_strokes (CeldOp *op, const char *pad, const CeldPaint *strokes, gboolean scribbles)
 {
-  guint64   input = strokes_input (op->operation, strokes);
-  guint64  *good = &op->operation->good_strokes[celd_op_pad_index (op, pad)];
-  bool      have = false;
-  CeldPlane ink;
+  guint64        input = strokes_input (op->operation, strokes);
+  guint64       *good = &op->operation->good_strokes[celd_op_pad_index (op, pad)];
+  CeldLayerLines lines;
+  CeldPlane      ink;
+  gboolean       have;
 
   if (op->settings.flats || input == *good)
     return TRUE;
   if (!celd_op_try (op, celd_session_ink (op->operation->session, &op->quiet, &ink, NULL)) ||
-      !celd_op_try (op, celd_layer_has_lines (strokes, &ink, &have)))
+      !celd_op_try (op, celd_layer_lines (strokes, &ink, &lines)))
     return FALSE;
-  if (scribbles && (celd_paint_has_colours (strokes) || celd_paint_is_coloured (strokes)))
-    have = false;
+  have  = lines == CELD_LAYER_OF_LINES || (lines == CELD_LAYER_COLOURED && !scribbles);
   *good = have ? 0 : input;
   return !have || celd_op_fail (op, _ ("The picture for '%s' (pad %s) has the lines of the drawing. Choose a layer with "
                                        "the strokes alone."), _ (celd_op_pad_label (op, pad)), pad);

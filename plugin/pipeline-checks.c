@@ -110,23 +110,21 @@ celd_pipeline_check_layers (CeldPipeline *p, const CeldPipelineInput *input, gui
   return (!scribbles || check_scribbles (p, input, error)) && (!drawing || check_drawing (p, input, error));
 }
 
-/* Scribbles may be the fills of a coloured drawing with its lines, which regions can be found by. */
 static gboolean
 check_strokes (const CeldPipeline *p, const CeldPipelineInput *input, CeldLayerRole role, const CeldPlane *ink,
                GError **error)
 {
-  CeldPaint  paint = { 0 };
-  bool       drawn = false;
-  CeldStatus status = read_paint (p, input, role, &paint);
+  CeldPaint      paint = { 0 };
+  CeldLayerLines lines = CELD_LAYER_WITHOUT_LINES;
+  CeldStatus     status = read_paint (p, input, role, &paint);
 
   if (status == CELD_OK)
-    status = celd_layer_has_lines (&paint, ink, &drawn);
-  if (role == CELD_LAYER_SCRIBBLES)
-    drawn = drawn && !celd_paint_has_colours (&paint) && !celd_paint_is_coloured (&paint);
+    status = celd_layer_lines (&paint, ink, &lines);
   g_free (paint.data);
   return celd_pipeline_try (status, error) &&
-         (!drawn || celd_pipeline_fail (error, _ ("The layer with '%s' has the lines of the drawing. Choose a layer with "
-                                                  "the strokes alone."), _ (celd_layer_role_name (role))));
+         (lines == CELD_LAYER_WITHOUT_LINES || (lines == CELD_LAYER_COLOURED && role == CELD_LAYER_SCRIBBLES) ||
+          celd_pipeline_fail (error, _ ("The layer with '%s' has the lines of the drawing. Choose a layer with the "
+                                        "strokes alone."), _ (celd_layer_role_name (role))));
 }
 
 gboolean

@@ -109,6 +109,7 @@ lines_step (const CeldHost *host, Results *r)
   static float   levels[SIDE * SIDE];
   CeldPaint      layer = { SIDE, SIDE, SIDE, drawn };
   CeldPlane      plane = { SIDE, SIDE, SIDE, levels };
+  CeldLayerLines lines;
   bool           found;
   CeldStatus     status;
 
@@ -120,7 +121,7 @@ lines_step (const CeldHost *host, Results *r)
       for (int k = 0; k < 4; k++)
         drawn[4 * i + k] = k == 3 || levels[i] > 0 ? 255 : 0;
     }
-  status = celd_layer_has_lines (&layer, &plane, &found);
+  status = celd_layer_lines (&layer, &plane, &lines);
   if (status == CELD_OK)
     status = celd_levels_have_lines (&plane, &plane, &found);
   if (status == CELD_OK)

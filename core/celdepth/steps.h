@@ -59,9 +59,11 @@ CELD_API CeldStatus celd_are_arrows (const CeldPaint *paint, const CeldHost *hos
  * the page. */
 CELD_API CeldStatus celd_may_be_drawing (const CeldPaint *scribbles, bool *may_be);
 
-/* Whether a layer has the lines of the drawing, by its ink, as the drawing itself has them, also shaded or coloured.
- * Strokes in clear colours are none. */
-CELD_API CeldStatus celd_layer_has_lines (const CeldPaint *layer, const CeldPlane *ink, bool *has);
+/* Whether a layer has the lines of the drawing, by its ink, as the drawing itself has them, also shaded; and whether it
+ * has colours beside them, be it a few thin strokes: as scribbles these can be meant.  Strokes in clear colours are no
+ * lines. */
+typedef enum { CELD_LAYER_WITHOUT_LINES, CELD_LAYER_COLOURED, CELD_LAYER_OF_LINES } CeldLayerLines;
+CELD_API CeldStatus celd_layer_lines (const CeldPaint *layer, const CeldPlane *ink, CeldLayerLines *lines);
 
 /* Whether a picture is a copy of another one, perhaps stored with loss. */
 CELD_API CeldStatus celd_is_copy (const CeldPaint *a, const CeldPaint *b, bool *copy);
@@ -76,8 +78,6 @@ CELD_API CeldStatus celd_mix_up (const CeldPaint *drawing, const CeldPaint *scri
 /* Whether more than a hundredth of a picture is in colour, by more than JPEG makes of grey: levels and depth are
  * not. */
 CELD_API bool celd_paint_is_coloured (const CeldPaint *paint);
-/* Whether something in clear colours is painted, be it a few thin strokes. */
-CELD_API bool celd_paint_has_colours (const CeldPaint *paint);
 
 /* Whether labels of flat colours, and finite levels or depth, flat or smooth, can be such: no photograph with grain or
  * texture can.  For hosts, as those above. */

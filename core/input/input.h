@@ -36,6 +36,8 @@
  * on a blank page. */
 bool celd_is_grey (const CeldPaint *paint);
 bool celd_is_coloured_strokes (const CeldPaint *paint);
+/* Whether something in clear colours is painted, be it a few thin strokes. */
+bool celd_paint_has_colours (const CeldPaint *paint);
 
 #define CELD_LEAST_DOT  4       /* solid pixels that make a label: a dot of 2 x 2; chosen */
 #define CELD_HARD_COLOURS 32    /* colours that a layer of hard strokes has at most; chosen */

@@ -208,7 +208,7 @@ lightness_of_line (const uint8_t *p)
 }
 
 CeldStatus
-celd_layer_has_lines (const CeldPaint *layer, const CeldPlane *ink, bool *has)
+celd_layer_lines (const CeldPaint *layer, const CeldPlane *ink, CeldLayerLines *lines)
 {
   CeldPlane  plane = { 0 };
   bool       drawn = false;
@@ -225,7 +225,9 @@ celd_layer_has_lines (const CeldPaint *layer, const CeldPlane *ink, bool *has)
   if (status == CELD_OK && drawn)
     status = celd_find_lines (&plane, 0, 1, ink, &drawn);
   if (status == CELD_OK)
-    *has = drawn;
+    *lines = !drawn ? CELD_LAYER_WITHOUT_LINES
+           : celd_paint_has_colours (layer) || celd_paint_is_coloured (layer) ? CELD_LAYER_COLOURED
+                                                                              : CELD_LAYER_OF_LINES;
   celd_free (plane.data);
   return status;
 }

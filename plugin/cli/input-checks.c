@@ -113,21 +113,20 @@ cli_check_not_mixed_up (const CliOptions *options, CliLayers *layers)
 
 /* ------------------------------------------------------------------ a drawing in place of a layer */
 
-/* Scribbles may be the fills of a coloured drawing with its lines, which regions can be found by. */
 static bool
 check_scribbles (const CliOptions *options, const CliLayers *layers, const CeldPlane *ink)
 {
-  const char *path = options->scribbles ? options->scribbles : options->input;
-  bool        have = false;
+  const char    *path = options->scribbles ? options->scribbles : options->input;
+  CeldLayerLines lines;
 
   if (!layers->scribbles.data)
     return true;
-  if (!cli_check (celd_layer_has_lines (&layers->scribbles, ink, &have)))
+  if (!cli_check (celd_layer_lines (&layers->scribbles, ink, &lines)))
     return false;
-  if (have && !celd_paint_has_colours (&layers->scribbles) && !celd_paint_is_coloured (&layers->scribbles))
+  if (lines == CELD_LAYER_OF_LINES)
     return cli_error (_ ("\"%s\" has the lines of the drawing, and no colours: give a picture of the strokes alone as "
                          "scribbles."), path);
-  if (have && !options->quiet)
+  if (lines == CELD_LAYER_COLOURED && !options->quiet)
     cli_say (_ ("\"%s\" has the lines of the drawing, too: give the strokes alone as scribbles, or use --flats if each "
                 "part has a flat colour of its own."), path);
   return true;
@@ -144,10 +143,10 @@ cli_check_no_drawings (const CliOptions *options, const CliLayers *layers, const
 
   for (size_t i = 0; good && i < G_N_ELEMENTS (layer); i++)
     {
-      bool have = false;
+      CeldLayerLines lines = CELD_LAYER_WITHOUT_LINES;
 
-      good = !layer[i].paint->data || cli_check (celd_layer_has_lines (layer[i].paint, ink, &have));
-      if (have)
+      good = !layer[i].paint->data || cli_check (celd_layer_lines (layer[i].paint, ink, &lines));
+      if (lines != CELD_LAYER_WITHOUT_LINES)
         good = cli_error (_ ("\"%s\" has the lines of the drawing: give a layer with the strokes alone."),
                           layer[i].path ? layer[i].path : options->input);
     }

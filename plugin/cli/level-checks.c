@@ -89,19 +89,18 @@ bool
 cli_check_regions_of (const char *path, const CeldLabels *regions, const CeldPalette *palette, const char *drawing,
                       const CeldPlane *ink, bool quiet)
 {
-  size_t    n = (size_t) regions->width * (size_t) regions->height;
-  CeldPaint paint = { regions->width, regions->height, (size_t) regions->width, g_try_malloc (4 * n) };
-  bool      have = false, grey = false, good = cli_check (paint.data ? CELD_OK : CELD_NO_MEMORY);
+  size_t         n = (size_t) regions->width * (size_t) regions->height;
+  CeldPaint      paint = { regions->width, regions->height, (size_t) regions->width, g_try_malloc (4 * n) };
+  CeldLayerLines lines = CELD_LAYER_WITHOUT_LINES;
+  bool           good = cli_check (paint.data ? CELD_OK : CELD_NO_MEMORY);
 
   good = good && cli_check (celd_labels_paint (regions, palette, &paint)) &&
-         cli_check (celd_layer_has_lines (&paint, ink, &have));
-  if (good && have)
-    grey = !celd_paint_is_coloured (&paint);
+         cli_check (celd_layer_lines (&paint, ink, &lines));
   g_free (paint.data);
-  if (grey)
+  if (lines == CELD_LAYER_OF_LINES)
     return cli_error ("\"%s\" has the lines of \"%s\", and no colours: regions are flat colours, as segment writes "
                       "them with --labels.", path, drawing);
-  if (good && have && !quiet)
+  if (lines == CELD_LAYER_COLOURED && !quiet)
     cli_say ("\"%s\" has the lines of \"%s\", too, which then are regions of their own: fill regions up to the middle "
              "of lines, as segment does.", path, drawing);
   return good;

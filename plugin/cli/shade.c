@@ -265,13 +265,13 @@ write_all (const CliOptions *options, Shade *s)
 static bool
 check_no_drawings (const CliOptions *options, const Shade *s)
 {
-  bool drawn = false;
+  CeldLayerLines lines = CELD_LAYER_WITHOUT_LINES;
 
   if (!cli_check_no_lines (options->input, &s->levels, options->drawing, &s->ink) ||
       (s->depth.data && !cli_check_no_lines (options->smooth_depth, &s->depth, options->drawing, &s->ink)) ||
-      (s->hints.data && !cli_check (celd_layer_has_lines (&s->hints, &s->ink, &drawn))))
+      (s->hints.data && !cli_check (celd_layer_lines (&s->hints, &s->ink, &lines))))
     return false;
-  if (drawn && !options->quiet)
+  if (lines != CELD_LAYER_WITHOUT_LINES && !options->quiet)
     cli_say ("\"%s\" has the lines of \"%s\", as if it were the drawing: hints are paint beside lines.", options->hints,
              options->drawing);
   return true;

@@ -192,38 +192,41 @@ pages_of_any_size (void)
   CHECK (celd_may_be_drawing (&b, &may_be) == CELD_OK && may_be);
 }
 
-/* Whether a layer has the lines of a drawing. */
-static bool
-has_lines (uint8_t *layer)
+/* What a layer has of the lines of a drawing. */
+static CeldLayerLines
+lines_of (uint8_t *layer)
 {
-  static float ink[SIDE * SIDE];
-  CeldPaint    paint = page (layer);
-  CeldPlane    plane = { SIDE, SIDE, SIDE, ink };
-  bool         has = false;
+  static float   ink[SIDE * SIDE];
+  CeldPaint      paint = page (layer);
+  CeldPlane      plane = { SIDE, SIDE, SIDE, ink };
+  CeldLayerLines lines = CELD_LAYER_WITHOUT_LINES;
 
   for (int i = 0; i < SIDE * SIDE; i++)
     ink[i] = (i % SIDE + 1) % 40 < 2 || (i / SIDE + 1) % 40 < 2 ? 0 : 1;
-  CHECK (celd_layer_has_lines (&paint, &plane, &has) == CELD_OK);
-  return has;
+  CHECK (celd_layer_lines (&paint, &plane, &lines) == CELD_OK);
+  return lines;
 }
 
 static void
 layers_with_lines_are_noticed (void)
 {
   draw_rooms (drawn, black, white, white);
-  CHECK (has_lines (drawn));
+  CHECK (lines_of (drawn) == CELD_LAYER_OF_LINES);
+  for (int i = 0; i < 4; i++)
+    drawn[i] = red[i]; /* one pixel in a clear colour is seen */
+  CHECK (lines_of (drawn) == CELD_LAYER_COLOURED);
   draw_rooms (drawn, black, yellow, pink);
-  CHECK (has_lines (drawn));
+  CHECK (lines_of (drawn) == CELD_LAYER_COLOURED);
   draw_rooms (drawn, red, white, white); /* contours may be traced */
-  CHECK (!has_lines (drawn));
+  CHECK (lines_of (drawn) == CELD_LAYER_WITHOUT_LINES);
   draw_rooms (drawn, red, nothing, nothing);
-  CHECK (!has_lines (drawn));
+  CHECK (lines_of (drawn) == CELD_LAYER_WITHOUT_LINES);
   draw_rooms (drawn, blue, blue, green); /* fills */
-  CHECK (!has_lines (drawn));
+  CHECK (lines_of (drawn) == CELD_LAYER_WITHOUT_LINES);
   draw_strokes (drawn, nothing, black, dark_red);
-  CHECK (!has_lines (drawn));
+  CHECK (lines_of (drawn) == CELD_LAYER_WITHOUT_LINES);
   draw_strokes (drawn, white, black, black);
-  CHECK (!has_lines (drawn));
+  CHECK (lines_of (drawn) == CELD_LAYER_WITHOUT_LINES);
 }
 
 int
