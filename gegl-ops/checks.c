@@ -106,6 +106,9 @@ celd_op_check_scribbles (CeldOp *op, const char *drawing_pad, const CeldPaint *s
   if (!celd_op_try (op, celd_may_be_drawing (scribbles, &drawn)) ||
       (drawn && !find_mix_up (op, drawing_pad, scribbles, &mix_up)))
     return FALSE;
+  if (mix_up == CELD_LAYERS_DRAWN)
+    return celd_op_fail (op, _ ("The scribbles look like a drawing: scribbles are strokes in clear colours. Choose "
+                                "another layer."));
   if (mix_up == CELD_LAYERS_SAME)
     return celd_op_fail (op, _ ("The scribbles are the same picture as the drawing: choose the layer with the strokes, "
                                 "or 'Scribbles are flat colours' if each part has a flat colour of its own."));

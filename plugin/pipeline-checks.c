@@ -62,6 +62,9 @@ check_scribbles (const CeldPipeline *p, const CeldPipelineInput *input, GError *
     good = celd_pipeline_fail (error, _ ("The layer chosen as scribbles is the same picture as the drawing: choose the "
                                          "layer with the strokes, or 'Scribbles are flat colours' if each part has a "
                                          "flat colour of its own."));
+  if (good && mix_up == CELD_LAYERS_DRAWN)
+    good = celd_pipeline_fail (error, _ ("The layer chosen as scribbles looks like a drawing: scribbles are "
+                                         "strokes in clear colours. Choose another layer."));
   if (good && mix_up == CELD_LAYERS_EXCHANGED)
     good = celd_pipeline_fail (error, _ ("The layer chosen as the drawing looks like scribbles, and the one chosen "
                                          "as scribbles like a drawing. Exchange them, or scribble in clear colours."));

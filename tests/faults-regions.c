@@ -127,6 +127,8 @@ lines_step (const CeldHost *host, Results *r)
   if (status == CELD_OK)
     status = celd_levels_are_exchanged (&plane, &plane, &found);
   if (status == CELD_OK)
+    status = celd_levels_are_drawing (&plane, &found);
+  if (status == CELD_OK)
     status = celd_is_copy (&layer, &layer, &found);
   return status == CELD_OK ? celd_is_flattened (&layer, &layer, &found) : status;
 }

@@ -71,8 +71,8 @@ CELD_API CeldStatus celd_is_copy (const CeldPaint *a, const CeldPaint *b, bool *
 CELD_API CeldStatus celd_is_flattened (const CeldPaint *drawing, const CeldPaint *strokes, bool *flattened);
 
 /* Whether the drawing and the scribbles, which may be a drawing, are what they were given for, or exchanged, or the
- * same picture. */
-typedef enum { CELD_LAYERS_APART, CELD_LAYERS_EXCHANGED, CELD_LAYERS_SAME } CeldMixUp;
+ * same picture, or the scribbles are another drawing. */
+typedef enum { CELD_LAYERS_APART, CELD_LAYERS_EXCHANGED, CELD_LAYERS_SAME, CELD_LAYERS_DRAWN } CeldMixUp;
 CELD_API CeldStatus celd_mix_up (const CeldPaint *drawing, const CeldPaint *scribbles, CeldMixUp *mix_up);
 
 /* Whether more than a hundredth of a picture is in colour, by more than JPEG makes of grey: levels and depth are
@@ -86,6 +86,8 @@ CELD_API bool celd_are_levels (const CeldPlane *levels);
 /* Whether finite levels or depth have the lines of their drawing, its ink or its brightness, dark between both sides,
  * as the drawing itself has them, shaded or coloured.  Levels have them as parts of their sides. */
 CELD_API CeldStatus celd_levels_have_lines (const CeldPlane *levels, const CeldPlane *drawing, bool *have);
+/* Whether finite levels or depth are a drawing: nearly all that changes in it is lines, dark or light. */
+CELD_API CeldStatus celd_levels_are_drawing (const CeldPlane *levels, bool *are);
 /* Whether finite levels or depth are a drawing, and the drawing, by its brightness, is levels. */
 CELD_API CeldStatus celd_levels_are_exchanged (const CeldPlane *levels, const CeldPlane *drawing, bool *exchanged);
 

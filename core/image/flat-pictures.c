@@ -10,6 +10,10 @@
  * line belongs to one of its sides: of the pixels of lines at most 0.27 are lower than both sides in levels of these
  * drawings, and in drawings that were given as levels at least 0.74.
  *
+ * Where the drawing is not known, lines tell one, too: without what is narrow, dark or light, hardly anything of a
+ * drawing changes from pixel to pixel.  In levels of 257 drawings 0.19 of all variation is left at least, where parts
+ * are as narrow as lines; of 257 drawings 227 leave 0.1 at most, and half of them 0.002.
+ *
  * Where levels and drawing were exchanged, the levels have more lines than the drawing, dark or light: of a drawing, grey
  * or coloured, they take 1.7 times as much as of its levels at least, where narrow parts look like lines.  And levels are
  * the flatter picture: each step is one edge, each line two.
@@ -19,6 +23,7 @@
 #include "image/image.h"
 
 #include <math.h>
+#include <stdlib.h>
 
 #define FEW_LABELS   1000 /* fewer may have any size; chosen */
 #define LABEL_AREA   20   /* pixels of a label, more on average; chosen */
@@ -39,6 +44,7 @@
 #define LOWER        26   /* ... and lower in levels of which it is a part; chosen */
 #define FEW_LINES    1000 /* the page divided by the least area of lines that tell anything; chosen */
 #define MANY_LINES   100  /* the page divided by the least area of lines of a drawing that was given as levels; chosen */
+#define LITTLE_LEFT  0.1  /* of the variation of a drawing without its lines, at most (measured, see above) */
 #define MORE_LINES   1.3  /* times as much as in its levels, at least (measured, see above) */
 #define MOST_LOWER   0.5  /* of the pixels of lines are lower than both sides, in levels (measured, see above) */
 
@@ -122,6 +128,12 @@ celd_are_levels (const CeldPlane *levels)
 
 /* ------------------------------------------------------------------ drawings */
 
+static uint8_t
+byte_of (float value)
+{
+  return (uint8_t) lrintf (255 * fmaxf (0, fminf (1, value)));
+}
+
 /* Finds by how much values are lower than those on both sides, in 255ths of a range from `least` on. */
 static CeldStatus
 find_valleys (const CeldPlane *plane, float least, float range, CeldMask *valleys)
@@ -140,11 +152,7 @@ find_valleys (const CeldPlane *plane, float least, float range, CeldMask *valley
     {
       for (int y = 0; y < plane->height; y++)
         for (int x = 0; x < plane->width; x++)
-          {
-            float value = (CELD_AT (plane, x, y) - least) / range;
-
-            CELD_AT (&bytes, x, y) = (uint8_t) lrintf (255 * fmaxf (0, fminf (1, value)));
-          }
+          CELD_AT (&bytes, x, y) = byte_of ((CELD_AT (plane, x, y) - least) / range);
       celd_close_bytes (&bytes, radius, work, valleys);
       for (size_t i = 0; i < n; i++)
         valleys->data[i] = (uint8_t) (valleys->data[i] - values[i]);
@@ -197,6 +205,50 @@ celd_levels_have_lines (const CeldPlane *levels, const CeldPlane *drawing, bool 
   return CELD_OK;
 }
 
+/* The sum of the differences of neighbours. */
+static double
+variation (const CeldMask *picture)
+{
+  double sum = 0;
+
+  for (int y = 0; y < picture->height; y++)
+    for (int x = 0; x < picture->width; x++)
+      {
+        int value = CELD_AT (picture, x, y);
+
+        sum += x ? abs (value - CELD_AT (picture, x - 1, y)) : 0;
+        sum += y ? abs (value - CELD_AT (picture, x, y - 1)) : 0;
+      }
+  return sum;
+}
+
+/* The share of the variation that is left without lines, dark or light, whichever is less.  Neither range nor sign of
+ * the values matter. */
+static CeldStatus
+share_left (const CeldPlane *plane, float least, float most, CeldMask *valleys, CeldMask *picture, double *share)
+{
+  CeldStatus status = CELD_OK;
+
+  *share = 1;
+  for (int light = 0; light < 2 && status == CELD_OK; light++)
+    {
+      float  from = light ? most : least, range = light ? least - most : most - least;
+      double all;
+
+      status = find_valleys (plane, from, range, valleys);
+      if (status != CELD_OK)
+        break;
+      for (int y = 0; y < plane->height; y++)
+        for (int x = 0; x < plane->width; x++)
+          CELD_AT (picture, x, y) = byte_of ((CELD_AT (plane, x, y) - from) / range);
+      all = variation (picture);
+      for (size_t i = 0; i < picture->stride * (size_t) picture->height; i++)
+        picture->data[i] = (uint8_t) (picture->data[i] + valleys->data[i]);
+      *share = fmin (*share, variation (picture) / fmax (1, all));
+    }
+  return status;
+}
+
 /* ------------------------------------------------------------------ levels and drawing exchanged */
 
 /* The share of pixels in lines, dark or light, whichever are more. */
@@ -235,6 +287,29 @@ count_edges (const CeldPlane *plane)
         edges += fabsf (CELD_AT (plane, x + 1, y) - value) > 0 || fabsf (CELD_AT (plane, x, y + 1) - value) > 0;
       }
   return edges;
+}
+
+CeldStatus
+celd_levels_are_drawing (const CeldPlane *levels, bool *are)
+{
+  CeldMask   valleys = { levels->width, levels->height, (size_t) levels->width, NULL }, picture = valleys;
+  size_t     n = valleys.stride * (size_t) valleys.height;
+  double     lines = 0, left = 1;
+  float      least, most;
+  CeldStatus status = CELD_NO_MEMORY;
+
+  celd_level_range (levels, &least, &most);
+  valleys.data = celd_alloc (n, 1);
+  picture.data = celd_alloc (n, 1);
+  if (valleys.data && picture.data)
+    status = line_share (levels, &valleys, &lines);
+  if (status == CELD_OK && most > least)
+    status = share_left (levels, least, most, &valleys, &picture, &left);
+  if (status == CELD_OK)
+    *are = MANY_LINES * lines >= 1 && left < LITTLE_LEFT;
+  celd_free (valleys.data);
+  celd_free (picture.data);
+  return status;
 }
 
 CeldStatus

@@ -4,7 +4,8 @@
  * lightest channel, as black, brown and dark shades are; strokes of clear colours are as light there as paper.  On a
  * dark page they are what is light.  In the other layer, which may be drawn with a red pencil, all that is narrow
  * counts as a line.  Of 156 drawings, grey and coloured, 155 have at least three rooms, and their scribbles, hard,
- * soft, and whole fills, nearly all one or two.
+ * soft, and whole fills, nearly all one or two.  Scribbles without colours that have many rooms are another drawing,
+ * such as that of the next frame.
  *
  * A page is looked at in cells, each as dark as its darkest pixel, so that thin lines stay whole: what this takes does
  * not depend on the size of the page.
@@ -28,6 +29,8 @@
 #define ROOM_SIDE     64   /* pixels; smaller pages have no rooms that tell anything (chosen) */
 #define LEAST_ROOMS   3    /* of a drawing that was given as scribbles (measured, see above), */
 #define MORE_ROOMS    3    /* and how many times as many as there are in the other layer (measured) */
+#define MANY_ROOMS    6    /* of another drawing that was given as scribbles (measured: of 1225 layers of scribbles, as
+                            * black strokes, none has more than three; half of the drawings have as many) */
 #define STORED        48   /* of 255: how much a channel changes when a picture is stored with loss, at most; chosen */
 #define SAME_SHARE    1000 /* of the cells of a copy at most 1 / this differ by more (chosen), */
 #define SAME_DRAWN    10   /* and of those where something is drawn at most 1 / this (chosen) */
@@ -245,6 +248,19 @@ celd_may_be_drawing (const CeldPaint *scribbles, bool *may_be)
   return status;
 }
 
+/* Whether grey scribbles are parted as only a drawing is.  On a dark page fills with gaps between may look so. */
+static CeldStatus
+look_for_rooms (const CeldPaint *scribbles, bool *drawn)
+{
+  size_t     rooms = 0;
+  CeldStatus status = CELD_OK;
+
+  if (celd_is_grey (scribbles) && !is_dark_page (scribbles, 1))
+    status = count_rooms (scribbles, false, LINE_RADIUS, &rooms);
+  *drawn = rooms >= MANY_ROOMS;
+  return status;
+}
+
 /* Whether the drawing is in colour and parted less than the scribbles: far less, unless it is plainly strokes, and the
  * scribbles are in grey. */
 static CeldStatus
@@ -266,12 +282,15 @@ compare_rooms (const CeldPaint *drawing, const CeldPaint *scribbles, bool *excha
 CeldStatus
 celd_mix_up (const CeldPaint *drawing, const CeldPaint *scribbles, CeldMixUp *mix_up)
 {
-  bool       same = false, exchanged = false;
+  bool       same = false, exchanged = false, drawn = false;
   CeldStatus status = celd_is_copy (drawing, scribbles, &same);
 
   if (status == CELD_OK && !same && !celd_is_grey (drawing))
     status = compare_rooms (drawing, scribbles, &exchanged);
+  if (status == CELD_OK && !same && !exchanged)
+    status = look_for_rooms (scribbles, &drawn);
   if (status == CELD_OK)
-    *mix_up = same ? CELD_LAYERS_SAME : exchanged ? CELD_LAYERS_EXCHANGED : CELD_LAYERS_APART;
+    *mix_up = same ? CELD_LAYERS_SAME
+            : exchanged ? CELD_LAYERS_EXCHANGED : drawn ? CELD_LAYERS_DRAWN : CELD_LAYERS_APART;
   return status;
 }

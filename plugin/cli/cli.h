@@ -300,7 +300,10 @@ bool cli_check_regions  (const char *path, const CeldLabels *regions, const Celd
 /* That regions are not the drawing; warns of those that have its lines, too. */
 bool cli_check_regions_of (const char *path, const CeldLabels *regions, const CeldPalette *palette, const char *drawing,
                            const CeldPlane *ink, bool quiet);
-/* That levels or depth have not the lines of a drawing, by its ink or brightness; the second one only warns of that. */
+/* That levels or depth are no drawing, whichever. */
+bool cli_check_not_drawn (const char *path, const CeldPlane *levels);
+/* The same, and that they have not the lines of this drawing, by its ink or brightness; the second one only warns of
+ * these. */
 bool cli_check_no_lines (const char *path, const CeldPlane *levels, const char *drawing, const CeldPlane *ink);
 bool cli_warn_of_lines  (const char *path, const CeldPlane *levels, const char *drawing, const CeldPlane *ink);
 bool cli_check_not_exchanged (const CliOptions *options, const CeldPlane *levels, CliLayers *layers); /* with the drawing */

@@ -26,6 +26,9 @@ read_painted (const CliOptions *options, CliLayers *layers, CliRun *run, CeldHan
                         cli_check_strokes (options->handles_layer, "handles-layer", &paint) &&
                         cli_run_finish (run, celd_handles_read (&paint, style, &run->host, handles, &problems));
 
+  if (good && !handles->n)
+    good = cli_error ("\"%s\" has no handle that can be read: paint dots as pins, and arrows to where something goes.",
+                      options->handles_layer);
   if (good && !options->quiet)
     cli_say_problems (NULL, &problems, NULL, NULL);
   celd_problems_clear (&problems);

@@ -26,7 +26,7 @@ static bool
 read_art (const CliOptions *options, const CeldPlane *levels, CeldColours *art)
 {
   if (!options->colours)
-    return true;
+    return cli_check_not_drawn (options->input, levels);
   if (!cli_read_colours (options->colours, art))
     return false;
   if (art->width != levels->width || art->height != levels->height)

@@ -59,7 +59,7 @@ say_unsure (const Between *b, const CeldPlane *certainty)
         continue;
       cli_say ("Region #%02x%02x%02x %s (%d, %d) in \"%s\". If frames are wrong, give --scribbles-b.", c[0], c[1], c[2],
                note->change == CELD_REGION_GONE ? "was not found; it was at" : "is unsure round", note->x, note->y,
-               b->options->target);
+               note->change == CELD_REGION_GONE ? b->options->input : b->options->target);
     }
   state.ink = (CeldPlane) { 0 }; /* borrowed */
   cli_frame_clear (&state);

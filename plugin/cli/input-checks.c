@@ -32,12 +32,15 @@ cli_check_different_files (const CliOptions *options)
     { of_regions ? "the regions" : "the levels", "levels", of_regions || of_levels ? options->input : NULL },
     { "--scribbles", "scribbles", options->scribbles }, { "--arrows", "arrows", options->arrows },
     { "--contours", "contours", options->contours }, { "--corrections", "corrections", options->corrections },
-    { "--hidden", "hidden", options->hidden },
+    { "--hidden", "hidden", options->hidden }, { "--hints", "hints", options->hints },
+    { "--matcap", "matcap", options->matcap }, { "--handles-layer", "handles", options->handles_layer },
+    { "--source-levels", "levels", options->source_levels }, { "the second drawing", "drawing", options->target },
   };
 
   for (size_t i = 0; i < G_N_ELEMENTS (layer); i++)
     for (size_t k = 0; k < i; k++)
       if (layer[i].path && layer[k].path && cli_same_file (layer[i].path, layer[k].path) &&
+          !(layer[i].path == options->target && !k) /* the first drawing: nothing moves */ &&
           !(options->settings.flats && layer[i].path == options->scribbles) && !has_layer (layer[i].path, layer[i].role))
         return cli_error ("\"%s\" is given as %s and as %s: give each its own file.", layer[i].path, layer[k].name,
                           layer[i].name);
@@ -102,6 +105,9 @@ cli_check_not_mixed_up (const CliOptions *options, CliLayers *layers)
     return check_not_scribbles (options, layers);
   if (!find_mix_up (options, layers, &mix_up))
     return false;
+  if (mix_up == CELD_LAYERS_DRAWN)
+    return cli_error (_ ("\"%s\" looks like a drawing: scribbles are strokes in clear colours, one over each part."),
+                      options->scribbles);
   if (mix_up == CELD_LAYERS_SAME)
     return cli_error (_ ("\"%s\" is the same picture as the drawing \"%s\": give a picture of the strokes alone as "
                          "scribbles, or use --flats if each part has a flat colour of its own."),

@@ -62,13 +62,25 @@ cli_warn_if_flat (const char *path, const CeldPlane *levels)
 /* ------------------------------------------------------------------ drawings */
 
 bool
+cli_check_not_drawn (const char *path, const CeldPlane *levels)
+{
+  bool are = false;
+
+  return cli_check (celd_levels_are_drawing (levels, &are)) &&
+         (!are || cli_error ("\"%s\" looks like a drawing: levels and depth have the values of parts, also where lines "
+                             "are, as popup writes them with --levels and --depth.", path));
+}
+
+bool
 cli_check_no_lines (const char *path, const CeldPlane *levels, const char *drawing, const CeldPlane *ink)
 {
   bool have = false;
 
-  return cli_check (celd_levels_have_lines (levels, ink, &have)) &&
-         (!have || cli_error ("\"%s\" has the lines of \"%s\": levels and depth have the values of parts, also where "
-                              "lines are, as popup writes them with --levels and --depth.", path, drawing));
+  if (!cli_check (celd_levels_have_lines (levels, ink, &have)))
+    return false;
+  return have ? cli_error ("\"%s\" has the lines of \"%s\": levels and depth have the values of parts, also where lines "
+                           "are, as popup writes them with --levels and --depth.", path, drawing)
+              : cli_check_not_drawn (path, levels);
 }
 
 bool

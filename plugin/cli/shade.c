@@ -77,8 +77,6 @@ read_all (const CliOptions *options, Shade *s)
   if (!cli_read_levels (options->input, &s->levels) || !cli_check_levels (options->input, &s->levels) ||
       !check_grid (options, &s->levels))
     return false;
-  if (!options->quiet)
-    cli_warn_if_flat (options->input, &s->levels);
   s->layers.width  = s->levels.width;
   s->layers.height = s->levels.height;
   return cli_layers_read (options->drawing, options, CLI_CONTOURS, &s->layers) &&
@@ -287,8 +285,10 @@ run_shade (const CliOptions *options)
   cli_run_begin (&run, options, "reading shade writing");
   good = read_all (options, &s) && new_results (options, &s) && shade_cells (options, &run, &s) &&
          cli_check_lines (options->drawing, &s.ink) &&
-         check_no_drawings (options, &s) &&
-         write_all (options, &s);
+         check_no_drawings (options, &s);
+  if (good && !options->quiet)
+    cli_warn_if_flat (options->input, &s.levels);
+  good = good && write_all (options, &s);
   clear (&s);
   cli_run_end (&run);
   return good ? CLI_DONE : CLI_FAILED;

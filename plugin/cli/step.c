@@ -43,20 +43,23 @@ check_no_lines (const CliOptions *options, const CliStep *step)
 bool
 cli_step_begin (const CliOptions *options, CliStep *step)
 {
+  bool good;
+
   *step = (CliStep) { 0 };
   cli_run_begin (&step->run, options, "reading ink levels depth relief mesh writing");
   if (!cli_read_levels (options->input, &step->levels) || !cli_check_levels (options->input, &step->levels))
     return false;
-  if (!options->quiet)
-    cli_warn_if_flat (options->input, &step->levels);
   step->layers.width  = step->levels.width;
   step->layers.height = step->levels.height;
-  return cli_layers_read (options->drawing, options, CLI_CONTOURS, &step->layers) &&
+  good = cli_layers_read (options->drawing, options, CLI_CONTOURS, &step->layers) &&
          cli_check_not_exchanged (options, &step->levels, &step->layers) &&
          cli_make_ink (&step->layers, CELD_FOR_DEPTH, options, &step->run, &step->ink) &&
          cli_check_lines (options->drawing, &step->ink) && check_no_lines (options, step) &&
          (!step->layers.contours.data ||
           cli_make_ink (&step->layers, CELD_FOR_SEGMENTATION, options, &step->run, &step->borders));
+  if (good && !options->quiet)
+    cli_warn_if_flat (options->input, &step->levels);
+  return good;
 }
 
 const CeldPlane *

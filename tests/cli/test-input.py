@@ -510,6 +510,20 @@ class Nonsense(Test):
         self.fails('popup', 'drawing.png', '--scribbles', 'copy.png', '--depth', 'd.png',
                    naming='"copy.png" is the same picture as the drawing "drawing.png"')
 
+    def test_another_drawing_as_scribbles(self):
+        """Such as that of the next frame, which has none of this drawing's lines; black scribbles are none."""
+        other, strokes = Image.new('L', (WIDTH, HEIGHT), 255), Image.new('L', (WIDTH, HEIGHT), 255)
+        for x in range(4, WIDTH, 24):
+            for y in (4, 34):
+                ImageDraw.Draw(other).rectangle([x, y, x + 18, y + 24], outline=0, width=2)
+                ImageDraw.Draw(strokes).line([(x, y), (x + 18, y + 14)], fill=0, width=3)
+        other.save(self.path('other.png'))
+        strokes.save(self.path('strokes.png'))
+        for command, *words in (('popup', '--depth', 'd.png'), ('layers', '--output', 'l.ora')):
+            self.fails(command, 'drawing.png', '--scribbles', 'other.png', *words,
+                       naming='"other.png" looks like a drawing: scribbles are strokes in clear colours')
+        self.celdepth('segment', 'drawing.png', '--scribbles', 'strokes.png', '--labels', 'l.png')
+
     def test_scribbles_as_drawing(self):
         """A flattened copy of the layer, also stored with loss."""
         on_white = Image.new('RGB', (WIDTH, HEIGHT), 'white')
@@ -531,8 +545,32 @@ class Nonsense(Test):
         self.celdepth('segment', 'drawing.png', '--scribbles', 'scribbles.png', '--labels', 'flat.png')
         self.fails('order', 'flat.png', '--arrows', 'flat.png', '--unexpanded-levels', 'u.npy',
                    naming='given as the regions and as --arrows')
+        for option in ('--hints', '--matcap'):
+            self.fails('shade', 'levels.png', '--drawing', 'drawing.png', option, 'drawing.png', '--shading', 's.png',
+                       naming=f'"drawing.png" is given as the drawing and as {option}')
+        self.fails('deform', 'drawing.png', '--scribbles', 'scribbles.png', '--handles-layer', 'scribbles.png', '--output',
+                   'd.png', naming='given as --scribbles and as --handles-layer')
+        for command, *words in (('register', '--warped', 'w.png'), ('inbetween', '--output', 'b.png')):
+            self.fails(command, 'drawing.png', 'scribbles.png', '--scribbles', 'scribbles.png', *words,
+                       naming='given as --scribbles and as the second drawing')
+            self.celdepth(command, 'drawing.png', 'drawing.png', '--scribbles', 'scribbles.png', *words)
         write_psd(self.path('page.psd'), (WIDTH, HEIGHT), layers())
         self.celdepth('segment', 'page.psd', '--scribbles', 'page.psd', '--labels', 'l.png')
+
+    def test_one_sentence(self):
+        """What is refused is not also warned about."""
+        np.save(self.path('flat.npy'), np.full((HEIGHT, WIDTH), 2, np.float32))
+        Image.new('L', (WIDTH, HEIGHT), 255).save(self.path('white.png'))
+        for command, *words in (('shade', '--shading', 's.png'), ('smooth', '--depth', 'd.png')):
+            self.assertEqual(self.celdepth(command, 'flat.npy', '--drawing', 'white.png', *words, code=1).count('\n'), 1)
+            self.assertIn('everywhere', self.celdepth(command, 'flat.npy', '--drawing', 'drawing.png', *words))
+        strokes = Image.new('RGBA', (WIDTH, HEIGHT))
+        for y in range(6, 60, 12):
+            ImageDraw.Draw(strokes).line([(8, y), (80, y + 4)], fill=RED + (255,), width=2)
+        strokes.save(self.path('strokes.png'))
+        said = self.celdepth('deform', 'drawing.png', '--scribbles', 'scribbles.png', '--handles-layer', 'strokes.png',
+                             '--output', 'o.png', code=1)
+        self.assertEqual((said.count('\n'), said[:54]), (1, 'celdepth: "strokes.png" has no handle that can be read'))
 
     def test_colours_or_a_photograph_as_levels(self):
         self.popup('--labels', 'labels.png', '--relations', RELATIONS)
@@ -651,6 +689,21 @@ class Nonsense(Test):
         self.fails('enhance', 'drawing.png', *words, 'shaded.png', naming='"drawing.png" has the lines of "shaded.png"')
         for art in ('drawing.png', 'shaded.png', 'coloured.png'):
             self.assertEqual(self.celdepth('enhance', 'levels.npy', *words, art), '')
+
+    def test_drawings_alone_as_levels(self):
+        """Where no drawing is given, or the lines are those of another one; in ink and in chalk."""
+        self.popup('--relations', RELATIONS, '--levels', 'levels.png', '--depth', 'depth.png')
+        ImageOps.invert(drawing()).save(self.path('chalk.png'))
+        Image.open(self.path('drawing.png')).transpose(Image.Transpose.FLIP_TOP_BOTTOM).save(self.path('other.png'))
+        for name in ('drawing.png', 'chalk.png'):
+            for output in ('--view', '--shadow'):
+                self.fails('enhance', name, output, 'v.png', naming=f'"{name}" looks like a drawing: levels and depth')
+            self.fails('enhance', name, '--colours', 'levels.png', '--enhanced', 'e.png',
+                       naming=f'"{name}" looks like a drawing')
+        for command, *words in (('shade', '--shading', 's.png'), ('smooth', '--depth', 'd.png'), ('relief', '--height', 'h.png')):
+            self.fails(command, 'other.png', '--drawing', 'drawing.png', *words, naming='"other.png" looks like a drawing')
+        for name in ('levels.png', 'depth.png'):
+            self.assertEqual(self.celdepth('enhance', name, '--view', 'v.png'), '')
 
     def test_exchanged_levels(self):
         """Levels and drawing, ink or chalk, also where the lines of one are not those of the other."""

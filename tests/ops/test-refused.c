@@ -109,14 +109,29 @@ photographs_are_no_scribbles (void)
   g_object_unref (photograph);
 }
 
+/* A page parted into squares. */
+static GeglBuffer *
+squares (void)
+{
+  static float pixels[PIXELS];
+
+  for (int i = 0; i < PIXELS; i++)
+    pixels[i] = i % WIDTH % 24 < 2 || i / WIDTH % 24 < 2 ? 0 : 1;
+  return page_buffer ("Y' u8", "Y' float", pixels);
+}
+
 static void
 exchanged_layers_are_noticed (void)
 {
+  GeglBuffer *other = squares ();
+
   for (size_t i = 0; i < G_N_ELEMENTS (finders); i++)
     {
       CHECK (refuses (finders[i], (Pads) { { scribbles, drawing } }, "Exchange them"));
       CHECK (refuses (finders[i], (Pads) { { drawing, drawing } }, "The scribbles are the same picture"));
+      CHECK (refuses (finders[i], (Pads) { { drawing, other } }, "The scribbles look like a drawing"));
     }
+  g_object_unref (other);
 }
 
 static void

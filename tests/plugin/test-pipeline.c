@@ -348,8 +348,11 @@ other_layers_than_meant_are_refused (void)
 {
   static float      grey[PIXELS], colour[3 * PIXELS];
   CeldPipelineInput input = page_input ();
-  GeglBuffer       *surface, *photograph, *coloured;
+  GeglBuffer       *surface, *photograph, *coloured, *squares;
 
+  for (int i = 0; i < PIXELS; i++)
+    grey[i] = i % WIDTH % 24 < 2 || i / WIDTH % 24 < 2 ? 0 : 1;
+  squares = page_buffer ("Y' u8", "Y' float", grey);
   for (int i = 0; i < 3 * PIXELS; i++)
     {
       colour[i] = surface_at (i / 3, i % 3);
@@ -364,6 +367,8 @@ other_layers_than_meant_are_refused (void)
   input = page_input ();
   input.layer[CELD_LAYER_SCRIBBLES].buffer = photograph;
   CHECK (refused (&input, "the scribbles looks like a photograph"));
+  input.layer[CELD_LAYER_SCRIBBLES].buffer = squares;
+  CHECK (refused (&input, "chosen as scribbles looks like a drawing"));
   input.layer[CELD_LAYER_DRAWING].buffer = scribbles;
   input.layer[CELD_LAYER_SCRIBBLES].buffer = drawing;
   CHECK (refused (&input, "Exchange them"));
@@ -378,6 +383,7 @@ other_layers_than_meant_are_refused (void)
   g_object_unref (coloured);
   g_object_unref (surface);
   g_object_unref (photograph);
+  g_object_unref (squares);
 }
 
 /* The drawing in place of strokes, also once it takes the place of good ones; its colours may be scribbles. */

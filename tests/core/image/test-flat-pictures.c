@@ -170,6 +170,26 @@ are_exchanged (float (*level) (int x, int y), float (*drawing) (int x, int y))
 }
 
 /* A drawing has more lines and edges than its levels; what has none of either is not told. */
+static bool
+are_drawing (float (*value) (int x, int y))
+{
+  CeldPlane levels = { SIDE, SIDE, SIDE, pixels };
+  bool      are = false;
+
+  for (int i = 0; i < SIDE * SIDE; i++)
+    pixels[i] = 3 * value (i % SIDE, i / SIDE) - 7;
+  CHECK (celd_levels_are_drawing (&levels, &are) == CELD_OK);
+  return are;
+}
+
+/* In ink or chalk; fills, and parts with gaps between, may be levels. */
+static void
+drawings_without_levels_are_noticed (void)
+{
+  CHECK (are_drawing (inked) && are_drawing (chalked));
+  CHECK (!are_drawing (level_at) && !are_drawing (with_gaps) && !are_drawing (filled) && !are_drawing (flat));
+}
+
 static void
 exchanged_levels_are_noticed (void)
 {
@@ -223,6 +243,7 @@ main (void)
   RUN (grainy_pictures_are_none);
   RUN (smooth_depth_is_depth);
   RUN (drawings_have_lines);
+  RUN (drawings_without_levels_are_noticed);
   RUN (exchanged_levels_are_noticed);
   RUN (labels_are_flat);
   RUN (labels_have_many_pixels);

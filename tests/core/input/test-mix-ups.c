@@ -98,11 +98,33 @@ drawings_are_no_scribbles (void)
   draw_strokes (strokes, nothing, black, black); /* scribbles in grey, and a drawing in clear colours */
   draw_rooms (drawn, red, white, white);
   CHECK (mix_up (drawn, strokes) == CELD_LAYERS_APART);
+  draw_rooms (strokes, white, black, black); /* fills with gaps between */
+  CHECK (mix_up (drawn, strokes) == CELD_LAYERS_APART);
+  draw_strokes (strokes, nothing, black, black);
   draw_rooms (drawn, dark_red, white, white);
   for (int y = 90; y < 100; y++)
     for (int x = 90; x < 110; x++)
       put (drawn, x, y, blue);
   CHECK (mix_up (drawn, strokes) == CELD_LAYERS_APART);
+}
+
+/* Such as that of the next frame. */
+static void
+other_drawings_are_noticed (void)
+{
+  draw_rooms (strokes, black, white, nothing);
+  draw_strokes (drawn, white, black, black);
+  CHECK (mix_up (drawn, strokes) == CELD_LAYERS_DRAWN);
+  draw_rooms (drawn, black, yellow, pink);
+  put (drawn, 60, 60, blue);
+  for (int y = 0; y < SIDE; y++)
+    for (int x = 70; x < 90; x++)
+      put (drawn, x, y, white);
+  CHECK (mix_up (drawn, strokes) == CELD_LAYERS_DRAWN);
+  for (int y = 70; y < SIDE; y++)
+    for (int x = 0; x < SIDE; x++)
+      put (strokes, x, y, white);
+  CHECK (mix_up (drawn, strokes) == CELD_LAYERS_APART); /* three rooms, and the rest of the page */
 }
 
 /* Also one that was stored with loss; not one with strokes on it. */
@@ -234,6 +256,7 @@ main (void)
 {
   RUN (exchanged_layers_are_noticed);
   RUN (drawings_are_no_scribbles);
+  RUN (other_drawings_are_noticed);
   RUN (copies_are_noticed);
   RUN (blank_pages_are_no_copies);
   RUN (flattened_strokes_are_noticed);
