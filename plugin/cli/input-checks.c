@@ -7,7 +7,10 @@
 
 #include <glib/gi18n.h>
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
+
+#define BLANK_STEP 32 /* of 255: what differs by less in a blank layer is grain, or loss in a file; chosen */
 
 /* ------------------------------------------------------------------ the same file twice */
 
@@ -156,6 +159,50 @@ cli_check_no_drawings (const CliOptions *options, const CliLayers *layers, const
         good = cli_error (_ ("\"%s\" has the lines of the drawing: give a layer with the strokes alone."),
                           layer[i].path ? layer[i].path : options->input);
     }
+  return good;
+}
+
+/* ------------------------------------------------------------------ contours in vain */
+
+/* Whether a layer is the same colour all over, or nearly so. */
+static bool
+is_blank (const CeldPaint *paint)
+{
+  for (size_t i = 0; i < 4 * paint->stride * (size_t) paint->height; i++)
+    if (abs (paint->data[i] - paint->data[i % 4]) >= BLANK_STEP)
+      return false;
+  return true;
+}
+
+/* Whether contours change a drawing; the copy has room for it. */
+static bool
+bake (const CliLayers *layers, CeldInkMode mode, CeldDrawing *copy, bool *changed)
+{
+  const CeldDrawing *drawing = &layers->drawing;
+  size_t             n = drawing->luma.stride * (size_t) drawing->luma.height * sizeof (float);
+  bool               good = cli_check (celd_contours_bake (drawing, &layers->contours, CELD_FOR_SEGMENTATION, mode, NULL,
+                                                           copy));
+
+  *changed = good && (memcmp (copy->luma.data, drawing->luma.data, n) != 0 ||
+                      (drawing->alpha.data && memcmp (copy->alpha.data, drawing->alpha.data, n) != 0));
+  return good;
+}
+
+bool
+cli_warn_of_vain_contours (const char *path, const CliLayers *layers, CeldInkMode mode)
+{
+  int         width = layers->drawing.luma.width, height = layers->drawing.luma.height;
+  CeldDrawing copy = { 0 };
+  bool        changed = false, good;
+
+  if (is_blank (&layers->contours))
+    return true;
+  good = cli_plane_new (width, height, &copy.luma) &&
+         (!layers->drawing.alpha.data || cli_plane_new (width, height, &copy.alpha)) && bake (layers, mode, &copy, &changed);
+  if (good && !changed)
+    cli_say (_ ("The contours \"%s\" change nothing: they are red, blue, or over ink green."), path);
+  g_free (copy.luma.data);
+  g_free (copy.alpha.data);
   return good;
 }
 

@@ -332,6 +332,20 @@ class Strokes(Test):
         self.assertAlmostEqual(ends[0], 83 - 60, delta=2)
         self.assertGreater(abs(ends[1] - ends[0]), 3)
 
+    def test_contours_in_vain(self):
+        """Those in another colour, and green ones on paper."""
+        says = 'The contours "contours.png" change nothing: they are red, blue, or over ink green.'
+        words = 'segment', 'drawing.png', '--scribbles', 'scribbles.png', '--contours', 'contours.png', '--labels', 'l.png'
+        for colour, line, vain in (((0, 0, 0), [(60, 24), (60, 58)], True), ((255, 220, 0), [(60, 24), (60, 58)], True),
+                                   (RED, [(70, 36), (70, 50)], False), (GREEN, [(70, 36), (70, 50)], True),
+                                   (GREEN, [(60, 24), (60, 58)], False), (BLUE, [(70, 36), (70, 50)], False)):
+            self.layer('contours.png', (colour + (255,), line))
+            self.assertEqual(says in self.celdepth(*words), vain, colour)
+            self.assertNotIn(says, self.celdepth(*words, '--quiet'))
+        for mode, colour in (('RGBA', (0, 0, 0, 0)), ('L', 255), ('L', 0)):
+            Image.new(mode, (WIDTH, HEIGHT), colour).save(self.path('contours.png'))
+            self.assertNotIn('contours', self.celdepth(*words))
+
 
 class Drawings(Test):
     """The same drawing in other formats has the same regions."""
