@@ -160,6 +160,14 @@ CeldStatus celd_search_places_find (CeldArrowSearch *search);
 CeldStatus celd_search_votes_count (const CeldArrowSearch *search, const CeldStrokeArm *arm, size_t n_arms,
                                     CeldPoint **place, size_t *n);
 
+/* ------------------------------------------------------------------ search-turns.c */
+
+typedef enum { CELD_TURN_ROUND, CELD_TURN_CORNER } CeldTurnKind;
+
+/* The round ends, or the corners, of a traced line.  *place is to be freed by the caller in any case. */
+CeldStatus celd_search_turns_list (const CeldArrowSearch *search, const CeldStrokeLine *line, CeldTurnKind kind,
+                                   CeldPoint **place, size_t *n);
+
 /* ------------------------------------------------------------------ search-shafts.c */
 
 CeldStatus celd_search_shafts_find (CeldArrowSearch *search);

@@ -1,9 +1,10 @@
 /* Places where arrows that share ends may begin or end.
  *
  * The ends of traced lines are led on straight: where several meet, and at the tips of heads that fit there, arrows
- * may end (search-votes.c).  Others may at free ends of the paint, at corners, behind wide places, and where there is a
- * dot; those that fade or taper also where lines get stronger at once, and where they are divided.  Too many places do
- * no harm but take time; of places near each other the first is kept.
+ * may end (search-votes.c).  Others may at free ends of the paint and where else it is round, at corners
+ * (search-turns.c), behind wide places, and where there is a dot; those that fade or taper also where lines get
+ * stronger at once, and where they are divided.  Too many places do no harm but take time; of places near each other
+ * the first is kept.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -18,8 +19,6 @@
 #define STUB          1.8  /* length of a line that has a direction */
 #define PLACE_FAR_END 4.5  /* from the end of a line to where its direction is measured, at most */
 #define FAT           0.6  /* distance from the edge of the paint inside a filled head */
-#define PLACE_CORNER  0.45 /* radians by which a line turns at a corner, ... */
-#define CORNER_SIDE   2.5  /* ... over so long sides */
 #define PLACE_WIDE    0.75 /* distance from the edge at a wide place, ... */
 #define NARROW        0.5  /* ... and behind it */
 #define PLACE_BLOB    0.66 /* distance from the edge in the middle of a dot */
@@ -179,6 +178,25 @@ add_meetings (PlaceBuild *b)
   return status;
 }
 
+/* The round ends, or the corners, of all lines. */
+static CeldStatus
+add_turns (PlaceBuild *b, CeldTurnKind kind)
+{
+  CeldStatus status = CELD_OK;
+
+  for (size_t k = 0; k < b->raw.n_lines && status == CELD_OK; k++)
+    {
+      CeldPoint *place;
+      size_t     n;
+
+      status = celd_search_turns_list (b->s, &b->raw.line[k], kind, &place, &n);
+      for (size_t i = 0; i < n && status == CELD_OK; i++)
+        status = add_place (b, place[i]);
+      celd_free (place);
+    }
+  return status;
+}
+
 /* ------------------------------------------------------------------ along lines */
 
 /* Behind the wide places that lines lead to: the tips of filled heads from which others go on. */
@@ -206,61 +224,6 @@ add_narrows (PlaceBuild *b)
             status = add_place (b, p);
           if ((most > PLACE_WIDE * w && room <= NARROW * w) || room <= 0)
             break;
-        }
-    }
-  return status;
-}
-
-static double
-turn_at (const CeldStrokeLine *line, size_t i, size_t reach)
-{
-  CeldPoint a = line->at[i - reach], p = line->at[i], c = line->at[i + reach];
-  CeldPoint u = { p.x - a.x, p.y - a.y }, v = { c.x - p.x, c.y - p.y };
-
-  return fabs (atan2 (u.x * v.y - u.y * v.x, u.x * v.x + u.y * v.y));
-}
-
-/* Where the sides of a corner meet. */
-static CeldPoint
-corner_of (const PlaceBuild *b, const CeldStrokeLine *line, size_t i, size_t reach)
-{
-  CeldLineSums sums = { 0 };
-  CeldPoint    place;
-
-  for (int side = 0; side < 2; side++)
-    {
-      CeldPoint from = line->at[side ? i + reach : i - reach], to = line->at[side ? i + reach / 4 : i - reach / 4];
-      double    d = celd_points_apart (from, to);
-
-      if (d > 0)
-        celd_line_sums_add (&sums, from, (CeldPoint) { (to.x - from.x) / d, (to.y - from.y) / d }, 1);
-    }
-  place = celd_line_sums_point (&sums, line->at[i]);
-  return celd_points_apart (place, line->at[i]) > 1.5 * b->s->width ? line->at[i] : place;
-}
-
-static CeldStatus
-add_corners (PlaceBuild *b, const CeldStrokeLine *line)
-{
-  size_t     reach = (size_t) (CORNER_SIDE * b->s->width + 2), best = 0;
-  double     most = PLACE_CORNER;
-  CeldStatus status = CELD_OK;
-
-  for (size_t i = reach; i + reach < line->n && status == CELD_OK; i++)
-    {
-      double turn = turn_at (line, i, reach);
-
-      if (turn > most)
-        {
-          most = turn;
-          best = i;
-        }
-      if (best && (i > best + reach || i + reach + 1 == line->n))
-        {
-          status = add_place (b, corner_of (b, line, best, reach));
-          most   = PLACE_CORNER;
-          best   = 0;
-          i     += reach / 2;
         }
     }
   return status;
@@ -359,12 +322,14 @@ find_places (PlaceBuild *b)
     status = add_meetings (b);
   if (status == CELD_OK)
     status = add_free_ends (b);
+  if (status == CELD_OK && !celd_search_has_profiles (b->s))
+    status = add_turns (b, CELD_TURN_ROUND);
   if (status == CELD_OK && celd_search_has_profiles (b->s))
     status = add_changes (b);
   if (status == CELD_OK && b->s->style == CELD_ARROW_HEAD)
     status = add_narrows (b);
-  for (size_t k = 0; k < b->raw.n_lines && status == CELD_OK; k++)
-    status = add_corners (b, &b->raw.line[k]);
+  if (status == CELD_OK)
+    status = add_turns (b, CELD_TURN_CORNER);
   return status;
 }
 
