@@ -77,9 +77,9 @@ follow_piece (StrokeJoiner *j, const CeldStrokePiece *piece)
     {
       const CeldStrokePiece *below = piece_at (j, x, piece->y + 1);
 
-      if (below && below->label == piece->label)
+      if (below && below->label == piece->label && x > below->x && x < below->end - 1) /* not at the outline */
         {
-          x = below->end - 1;
+          x = below->end - 2;
           continue;
         }
       for (int dx = -1; dx <= 1; dx++)

@@ -8,10 +8,10 @@
  * A soft stroke may run on through a contour.  Its pixels behind the contour say nothing about the region there, but
  * would outweigh the cost of cutting that region at a narrow place.  So the overlap of a stroke with a component is
  * weighed by the odds that the stroke is meant for it: the stroke's pixels there to those elsewhere, times the pixels
- * of its label there to those of others.  Below LEAST_ODDS the overlap is a spill and is ignored.  If correct paint
- * outweighs foreign paint 3:1, this finds every spill of a stroke that has 2/5 of its paint outside the component; a
- * label alone in its component, or a stroke within one component, is never a spill.  What other paint cut off a stroke
- * is weighed as part of it.
+ * of its label there to those of others.  Below LEAST_ODDS, or LESSER_ODDS where other paint outweighs the label's, the
+ * overlap is a spill and is ignored.  If correct paint outweighs foreign paint 3:1, this finds every spill of a stroke
+ * that has a quarter of its paint outside the component; a label alone in its component, a stroke within one component,
+ * or where a stroke is most likely meant, is never a spill.  What other paint cut off a stroke is weighed as part of it.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -20,9 +20,11 @@
 #include "segment/basins.h"
 #include "segment/task.h"
 
+#include <math.h>
 #include <stdlib.h>
 
-#define LEAST_ODDS 0.5 /* of being meant, below which an overlap is a spill (chosen) */
+#define LEAST_ODDS  0.5 /* of being meant, below which an overlap is a spill, ... */
+#define LESSER_ODDS 1   /* ... and where other labels have more paint (both chosen) */
 
 /* ------------------------------------------------------------------ connected strokes */
 
@@ -190,7 +192,7 @@ add_part (uint32_t part, const size_t *sorted, size_t n, size_t *in_part, CeldSt
       if (!in_part[piece->stroke])
         {
           if (celd_append (strokes->overlap, strokes->n, strokes->overlap_capacity,
-                           (CeldStrokeOverlap) { part, piece->label, piece->stroke, 0, false }) != CELD_OK)
+                           (CeldStrokeOverlap) { part, piece->label, piece->stroke, 0, 0, false }) != CELD_OK)
             return CELD_NO_MEMORY;
         }
       in_part[piece->stroke] += piece->paper;
@@ -277,9 +279,9 @@ celd_strokes_keep (const CeldSegmentTask *task, CeldStrokes *strokes)
 
 /* ------------------------------------------------------------------ spills */
 
-/* Marks the spills among the overlaps first .. last - 1, which are those of one component. */
+/* Finds the odds of the overlaps first .. last - 1, which are those of one component, and which may be spills. */
 static void
-find_spills (CeldStrokes *strokes, size_t first, size_t last)
+find_odds (CeldStrokes *strokes, size_t first, size_t last)
 {
   double all = 0;
 
@@ -293,18 +295,41 @@ find_spills (CeldStrokes *strokes, size_t first, size_t last)
         mine += (double) strokes->overlap[j].pixels;
       for (size_t k = i; k < j; k++)
         {
-          double here = (double) strokes->overlap[k].pixels;
-          double elsewhere = (double) strokes->total[strokes->overlap[k].stroke] - here;
+          CeldStrokeOverlap *o = &strokes->overlap[k];
+          double             here = (double) o->pixels, elsewhere = (double) strokes->total[o->stroke] - here;
+          double             against = elsewhere * (all - mine);
 
-          strokes->overlap[k].spill = here * mine < LEAST_ODDS * elsewhere * (all - mine);
+          o->odds  = against > 0 ? here * mine / against : INFINITY;
+          o->spill = o->odds < (mine < all - mine ? LESSER_ODDS : LEAST_ODDS);
         }
+    }
+}
+
+/* Marks the spills; has_spill[k]: stroke k has any.  `best` is work space, 0 for all strokes. */
+static void
+find_spills (CeldStrokes *strokes, double *best, bool *has_spill)
+{
+  for (size_t i = 0, j; i < strokes->n; i = j)
+    {
+      for (j = i; j < strokes->n && strokes->overlap[j].part == strokes->overlap[i].part; j++)
+        ;
+      find_odds (strokes, i, j);
+    }
+  for (size_t i = 0; i < strokes->n; i++)
+    best[strokes->overlap[i].stroke] = fmax (best[strokes->overlap[i].stroke], strokes->overlap[i].odds);
+  for (size_t i = 0; i < strokes->n; i++)
+    {
+      CeldStrokeOverlap *o = &strokes->overlap[i];
+
+      o->spill &= o->odds < best[o->stroke];
+      has_spill[o->stroke] |= o->spill;
     }
 }
 
 static bool
 is_spill (const CeldStrokes *strokes, uint32_t component, const CeldStrokePiece *piece)
 {
-  CeldStrokeOverlap        key = { component, piece->label, piece->stroke, 0, false };
+  CeldStrokeOverlap        key = { component, piece->label, piece->stroke, 0, 0, false };
   const CeldStrokeOverlap *overlap = bsearch (&key, strokes->overlap, strokes->n, sizeof key, compare_overlaps);
 
   return overlap && overlap->spill;
@@ -333,7 +358,8 @@ celd_spills_remove (const CeldHost *host, CeldSegmentTask *task)
 {
   const uint32_t *component = task->basins->component;
   CeldStrokes    *strokes = &task->painted;
-  bool           *has_spill;
+  double         *best;
+  bool           *has_spill; /* most strokes have none: their pieces need no look-up */
   CeldStatus      status = celd_strokes_new (task, NULL, strokes);
 
   if (status == CELD_OK && !celd_task_all_hard (task))
@@ -342,17 +368,11 @@ celd_spills_remove (const CeldHost *host, CeldSegmentTask *task)
     status = celd_strokes_overlap (task->basins, component, strokes);
   if (status != CELD_OK || celd_task_all_hard (task))
     return status;
-  for (size_t i = 0, j; i < strokes->n; i = j)
-    {
-      for (j = i; j < strokes->n && strokes->overlap[j].part == strokes->overlap[i].part; j++)
-        ;
-      find_spills (strokes, i, j);
-    }
-  has_spill = celd_alloc0 (strokes->n_strokes, sizeof *has_spill); /* most strokes have none: their pieces need no
-                                                                    * look-up */
-  status  = has_spill ? CELD_OK : CELD_NO_MEMORY;
-  for (size_t i = 0; i < strokes->n && status == CELD_OK; i++)
-    has_spill[strokes->overlap[i].stroke] |= strokes->overlap[i].spill;
+  best      = celd_alloc0 (strokes->n_strokes, sizeof *best);
+  has_spill = celd_alloc0 (strokes->n_strokes, sizeof *has_spill);
+  status    = best && has_spill ? CELD_OK : CELD_NO_MEMORY;
+  if (status == CELD_OK)
+    find_spills (strokes, best, has_spill);
   for (size_t i = 0; i < strokes->n_pieces && status == CELD_OK; i++)
     if (has_spill[strokes->piece[i].stroke] &&
         is_spill (strokes, component[strokes->piece[i].basin], &strokes->piece[i]))
@@ -360,6 +380,7 @@ celd_spills_remove (const CeldHost *host, CeldSegmentTask *task)
         task->spilled = true;
         status = celd_stroke_piece_remove (task, &strokes->piece[i]);
       }
+  celd_free (best);
   celd_free (has_spill);
   return status == CELD_OK ? celd_progress (host, 1) : status;
 }

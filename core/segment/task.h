@@ -56,8 +56,8 @@ CeldStatus celd_labelling_measure (const CeldLabelling *labelling, const CeldBas
 /* ------------------------------------------------------------------ records */
 
 /* How many pixels of paper a connected stroke covers in one part of the drawing (a component, enclosure or merged
- * basin). */
-typedef struct { uint32_t part, label, stroke; size_t pixels; bool spill; } CeldStrokeOverlap;
+ * basin).  `odds` of being meant for it, and `spill`: see strokes.c; 0 until spills are sought. */
+typedef struct { uint32_t part, label, stroke; size_t pixels; double odds; bool spill; } CeldStrokeOverlap;
 
 /* The pixels x .. end - 1 of row y, of one stroke and in one basin.  `paper`: how many of them are paper.  `stroke`:
  * connected strokes are numbered from 0. */

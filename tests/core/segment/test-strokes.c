@@ -29,10 +29,10 @@ overlaps_count_the_paper_of_strokes_by_part (void)
   NEAR (strokes.n, 4, 0);
   if (strokes.n == 4)
     {
-      check_share (&strokes, 0, (CeldStrokeOverlap) { 1, 1, 0, 4, false });
-      check_share (&strokes, 1, (CeldStrokeOverlap) { 1, 2, 2, 1, false });
-      check_share (&strokes, 2, (CeldStrokeOverlap) { 2, 1, 0, 5, false });
-      check_share (&strokes, 3, (CeldStrokeOverlap) { 2, 2, 1, 2, false });
+      check_share (&strokes, 0, (CeldStrokeOverlap) { 1, 1, 0, 4, 0, false });
+      check_share (&strokes, 1, (CeldStrokeOverlap) { 1, 2, 2, 1, 0, false });
+      check_share (&strokes, 2, (CeldStrokeOverlap) { 2, 1, 0, 5, 0, false });
+      check_share (&strokes, 3, (CeldStrokeOverlap) { 2, 2, 1, 2, 0, false });
     }
   NEAR (strokes.n_strokes, 3, 0);
   if (strokes.n_strokes == 3)
@@ -86,14 +86,12 @@ runs_are_cut_where_basins_meet (void)
 
 /* ------------------------------------------------------------------ the same by pixels */
 
-/* Is pixel p a spill?  By the definition, pixel by pixel. */
-static bool
-slow_stain (const CeldLabels *painted, const CeldLabels *component, const uint32_t stroke[W * H], int p)
+/* The odds that a stroke is meant for a component in which it has paint; *lesser: other paint outweighs the label's. */
+static double
+slow_odds (const CeldLabels *painted, const CeldLabels *component, const uint32_t stroke[W * H], int p, bool *lesser)
 {
   double here = 0, elsewhere = 0, mine = 0, others = 0;
 
-  if (!painted->data[p] || !component->data[p])
-    return false;
   for (int q = 0; q < W * H; q++)
     if (painted->data[q] && component->data[q] == component->data[p])
       {
@@ -103,7 +101,24 @@ slow_stain (const CeldLabels *painted, const CeldLabels *component, const uint32
       }
     else
       elsewhere += component->data[q] && stroke[q] == stroke[p];
-  return here * mine < 0.5 * elsewhere * others;
+  *lesser = mine < others;
+  return elsewhere * others > 0 ? here * mine / (elsewhere * others) : INFINITY;
+}
+
+/* Is pixel p a spill?  By the definition, pixel by pixel. */
+static bool
+slow_stain (const CeldLabels *painted, const CeldLabels *component, const uint32_t stroke[W * H], int p)
+{
+  bool   lesser, other_lesser, best = true;
+  double odds;
+
+  if (!painted->data[p] || !component->data[p])
+    return false;
+  odds = slow_odds (painted, component, stroke, p, &lesser);
+  for (int q = 0; q < W * H && odds < 1; q++)
+    if (painted->data[q] && component->data[q] && stroke[q] == stroke[p])
+      best &= slow_odds (painted, component, stroke, q, &other_lesser) <= odds;
+  return odds < (lesser ? 1 : 0.5) && !best;
 }
 
 /* With what other seeds on the same drawing left behind, stroke pieces must be the same. */
@@ -254,17 +269,41 @@ at_home_or_alone_paint_is_none (void)
   check_left (halves, alone, 0.05f, alone);
 }
 
-/* A stroke with 2 of its 5 pixels elsewhere: 9 pixels of B do not outweigh the other 3, 10 do. */
+/* A stroke with 2 of its 5 pixels elsewhere: 4 pixels of B do not outweigh the other 3, 5 do. */
+static void
+a_lesser_spill_has_odds_below_one (void)
+{
+  static const char *const paper[] = { "1#22222", "1#22222", NULL };
+  static const char *const four[] = { "AAAAA..", "A..BBBB", NULL };
+  static const char *const five[] = { "AAAAA..", "A.BBBBB", NULL };
+  static const char *const left[] = { "AA.....", "A.BBBBB", NULL };
+
+  check_left (paper, four, 0.05f, four);
+  check_left (paper, five, 0.05f, left);
+}
+
+/* As much paint of A as of B: 6 pixels of the stroke elsewhere do not outweigh the 3 here, 7 do. */
 static void
 a_spill_has_odds_below_one_half (void)
 {
-  static const char *const paper[] = { "1#22222", "1#22222", "1#22222", NULL };
-  static const char *const nine[] = { "AAAAA..", "A.BBBBB", "...BBBB", NULL };
-  static const char *const ten[] = { "AAAAA..", "A.BBBBB", "..BBBBB", NULL };
-  static const char *const left[] = { "AA.....", "A.BBBBB", "..BBBBB", NULL };
+  static const char *const paper[] = { "11111#22222", "11111#22222", NULL };
+  static const char *const six[] = { "AAAAAAAAA..", "...A....BBB", NULL };
+  static const char *const seven[] = { "AAAAAAAAA..", "..AA....BBB", NULL };
+  static const char *const left[] = { "AAAAAA.....", "..AA....BBB", NULL };
 
-  check_left (paper, nine, 0.05f, nine);
-  check_left (paper, ten, 0.05f, left);
+  check_left (paper, six, 0.05f, six);
+  check_left (paper, seven, 0.05f, left);
+}
+
+/* Of two parts in which others have more paint, the stroke is meant for that where it has most. */
+static void
+where_a_stroke_is_most_likely_meant_it_is_none (void)
+{
+  static const char *const painted[] = { "..AAAAAA...", "BBBBB.BBBBB", NULL };
+  static const char *const paper[] = { "11111#22222", "11111#22222", NULL };
+  static const char *const left[] = { "..AAAA.....", "BBBBB.BBBBB", NULL };
+
+  check_left (paper, painted, 0.05f, left);
 }
 
 /* ------------------------------------------------------------------ strokes cut in two */
@@ -333,7 +372,9 @@ main (void)
   RUN (stroke_pieces_overlaps_and_spills_are_those_of_the_pixels);
   RUN (paint_behind_a_contour_is_a_spill);
   RUN (at_home_or_alone_paint_is_none);
+  RUN (a_lesser_spill_has_odds_below_one);
   RUN (a_spill_has_odds_below_one_half);
+  RUN (where_a_stroke_is_most_likely_meant_it_is_none);
   RUN (a_stroke_cut_by_other_paint_or_ink_is_one);
   RUN (the_cut_off_end_of_a_spill_is_a_spill);
   return DONE;
