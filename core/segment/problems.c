@@ -13,7 +13,8 @@
 #define SMALLEST_WIDTH     3    /* nor those below the square of so many stroke widths, */
 #define LARGE_SHARE        1000 /* unless they are 1/1000 of the picture */
 #define SMALLEST_AREA      9    /* pixels: smaller ones are specks on any page (chosen) */
-#define LEAST_STROKE_SHARE 8    /* nor strokes below 1/8 of a label's paint, which another stroke may have cut off */
+#define LEAST_STROKE_SHARE 8    /* nor strokes below 1/8 of a label's paint, which another stroke may have cut off, ... */
+#define LEAST_LENGTH       5    /* ... unless they are so many brush widths long (both chosen) */
 
 /* The outcome of a connected stroke.  `other` is the label that most of its overruled pixels have, found by majority
  * vote with the margin `lead`. (x,y): the middle of the longest run of overruled pixels. */
@@ -59,10 +60,10 @@ follow_pixels (const CeldStrokePiece *piece, const CeldLabels *labels, StrokeOut
     }
 }
 
-/* A piece has the label of its basin, unless a patch lies over it. */
+/* A piece has the label of its basin, unless a patch lies over it.  Spills are not meant to have any. */
 static void
-follow_strokes (const CeldStrokes *strokes, const CeldLabelling *labelling, const CeldLabels *labels,
-                StrokeOutcome *outcome)
+follow_strokes (const CeldSegmentTask *task, const CeldStrokes *strokes, const CeldLabelling *labelling,
+                const CeldLabels *labels, StrokeOutcome *outcome)
 {
   const CeldPatch *patch = labelling->patches.item, *last = patch ? patch + labelling->patches.n : NULL;
 
@@ -75,6 +76,8 @@ follow_strokes (const CeldStrokes *strokes, const CeldLabelling *labelling, cons
       while (patch < last && (patch->y < piece->y || (patch->y == piece->y && patch->end <= piece->x)))
         patch++;
       f->label = piece->label;
+      if (task->spilled && celd_stroke_piece_is_spill (task, piece))
+        continue;
       f->area += (size_t) (piece->end - piece->x);
       if (!label || (patch < last && patch->y == piece->y && patch->x < piece->end))
         follow_pixels (piece, labels, f);
@@ -98,10 +101,11 @@ report_overruled (const CeldSegmentTask *task, const CeldStrokes *strokes, const
   CeldStatus     status = outcome ? CELD_OK : CELD_NO_MEMORY;
 
   if (status == CELD_OK)
-    follow_strokes (strokes, labelling, labels, outcome);
+    follow_strokes (task, strokes, labelling, labels, outcome);
   for (size_t k = 0; k < strokes->n_strokes && status == CELD_OK; k++)
     if (is_painted (task, outcome[k].label) && 2 * outcome[k].overruled > outcome[k].area &&
-        LEAST_STROKE_SHARE * outcome[k].area >= task->palette.item[outcome[k].label - 1].seeds)
+        (LEAST_STROKE_SHARE * outcome[k].area >= task->palette.item[outcome[k].label - 1].seeds ||
+         (double) outcome[k].area >= LEAST_LENGTH * task->brush * task->brush))
       status = celd_problem_add (problems, (CeldProblem) {
         .kind = CELD_PROBLEM_STROKE_OVERRULED, .x = outcome[k].x, .y = outcome[k].y, .label = outcome[k].label,
         .other = outcome[k].other, .relation = CELD_NO_INDEX });

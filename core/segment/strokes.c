@@ -326,11 +326,12 @@ find_spills (CeldStrokes *strokes, double *best, bool *has_spill)
     }
 }
 
-static bool
-is_spill (const CeldStrokes *strokes, uint32_t component, const CeldStrokePiece *piece)
+bool
+celd_stroke_piece_is_spill (const CeldSegmentTask *task, const CeldStrokePiece *piece)
 {
-  CeldStrokeOverlap        key = { component, piece->label, piece->stroke, 0, 0, false };
-  const CeldStrokeOverlap *overlap = bsearch (&key, strokes->overlap, strokes->n, sizeof key, compare_overlaps);
+  CeldStrokeOverlap        key = { task->basins->component[piece->basin], piece->label, piece->stroke, 0, 0, false };
+  const CeldStrokeOverlap *overlap = bsearch (&key, task->painted.overlap, task->painted.n, sizeof key,
+                                              compare_overlaps);
 
   return overlap && overlap->spill;
 }
@@ -374,8 +375,7 @@ celd_spills_remove (const CeldHost *host, CeldSegmentTask *task)
   if (status == CELD_OK)
     find_spills (strokes, best, has_spill);
   for (size_t i = 0; i < strokes->n_pieces && status == CELD_OK; i++)
-    if (has_spill[strokes->piece[i].stroke] &&
-        is_spill (strokes, component[strokes->piece[i].basin], &strokes->piece[i]))
+    if (has_spill[strokes->piece[i].stroke] && celd_stroke_piece_is_spill (task, &strokes->piece[i]))
       {
         task->spilled = true;
         status = celd_stroke_piece_remove (task, &strokes->piece[i]);

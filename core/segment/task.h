@@ -155,6 +155,9 @@ CeldStatus celd_stroke_piece_remove (CeldSegmentTask *task, const CeldStrokePiec
  * fills in task->painted. */
 CeldStatus celd_spills_remove (const CeldHost *host, CeldSegmentTask *task);
 
+/* Is this piece of task->painted a spill? */
+bool celd_stroke_piece_is_spill (const CeldSegmentTask *task, const CeldStrokePiece *piece);
+
 /* ------------------------------------------------------------------ background.c */
 
 /* Adds seeds along the frame where no stroke reaches, and marks the background in the palette.  No label is the

@@ -28,19 +28,32 @@ paint (const CeldBasins *b, const CeldLabels *labels, CeldLabelling *labelling)
 typedef struct { Sketch sketch; CeldLabels labels; CeldLabelling labelling; CeldProblems problems; } Case;
 
 static void
-report (Case *c, const char *const *paper, const char *const *painted, const char *const *labels, size_t n, bool flats)
+open_case (Case *c, const char *const *paper, const char *const *painted, size_t n)
+{
+  sketch_open (&c->sketch, paper, painted, n);
+  c->sketch.task.brush = 1;
+  c->problems = (CeldProblems) { 0 };
+}
+
+static void
+report_on (Case *c, const char *const *labels)
 {
   CeldSegmentTask *task = &c->sketch.task;
 
-  sketch_open (&c->sketch, paper, painted, n);
-  c->problems = (CeldProblems) { 0 };
-  c->sketch.settings.flats = flats;
   c->labels = art_labels (labels);
   for (int p = 0; p < c->labels.width * c->labels.height; p++)
     if (c->labels.data[p])
       task->palette.item[c->labels.data[p] - 1].area++;
   paint (&c->sketch.basins, &c->labels, &c->labelling);
   CHECK (celd_segment_report (task, &task->seeds, &c->labelling, &c->labels, NULL, &c->problems) == CELD_OK);
+}
+
+static void
+report (Case *c, const char *const *paper, const char *const *painted, const char *const *labels, size_t n, bool flats)
+{
+  open_case (c, paper, painted, n);
+  c->sketch.settings.flats = flats;
+  report_on (c, labels);
 }
 
 static void
@@ -100,6 +113,45 @@ half_a_stroke_and_specks_are_not_reported (void)
   report (&c, paper, eighth, labels, 2, false);
   NEAR (c.problems.n, 1, 0);
   case_close (&c);
+}
+
+/* A stroke five brushes long is no scrap, however much paint of its colour there is elsewhere. */
+static void
+a_long_stroke_is_reported_whatever_its_share (void)
+{
+  static const char *const page[] = { "111111111111111", "111111111111111", "111111111111111", "111111111111111", NULL };
+  static const char *const four[] = { "AAAAAAAAAAAAAAA", "AAAAAAAAAAAAAAA", "AAAAAAAAAA.....", "BB.........AAAA", NULL };
+  static const char *const five[] = { "AAAAAAAAAAAAAAA", "AAAAAAAAAAAAAAA", "AAAAAAAAA......", "BB........AAAAA", NULL };
+  static const char *const labels[] = { "AAAAAAAAAAAAAAA", "AAAAAAAAAAAAAAA", "AAAAAAAAAABBBBB", "BBBBBBBBBBBBBBB", NULL };
+  Case                     c;
+
+  report (&c, page, four, labels, 2, false);
+  NEAR (c.problems.n, 0, 0);
+  case_close (&c);
+  report (&c, page, five, labels, 2, false);
+  NEAR (c.problems.n, 1, 0);
+  case_close (&c);
+}
+
+/* Most of a stroke is a spill, and what is not has its label: it is not overruled. */
+static void
+spills_are_not_reported (void)
+{
+  static const char *const halves[] = { "1111#22222", "1111#22222", "1111#22222", NULL };
+  static const char *const painted[] = { "..AAAAAAA.", ".....BBBBB", ".....BBBBB", NULL };
+  static const char *const labels[] = { "AAAAABBBBB", "AAAAABBBBB", "AAAAABBBBB", NULL };
+  Case                     c;
+
+  for (int spilled = 0; spilled < 2; spilled++)
+    {
+      open_case (&c, halves, painted, 2);
+      if (spilled)
+        CHECK (celd_spills_remove (NULL, &c.sketch.task) == CELD_OK);
+      CHECK (c.sketch.task.spilled == spilled);
+      report_on (&c, labels);
+      NEAR (c.problems.n, !spilled, 0);
+      case_close (&c);
+    }
 }
 
 static void
@@ -315,7 +367,7 @@ overruled_strokes_are_those_of_the_pixels (void)
           if (!l || seen[p])
             continue;
           gather (&c.sketch.task.seeds, &c.labels, p, seen, &area, &overruled);
-          if (2 * overruled <= area || 8 * (size_t) area < c.sketch.task.palette.item[l - 1].seeds)
+          if (2 * overruled <= area || (area < 5 && 8 * (size_t) area < c.sketch.task.palette.item[l - 1].seeds))
             continue;
           CHECK (problem && problem->label == l && problem->other && problem->other != l &&
                  seen[problem->y * W + problem->x] && CELD_AT (&c.labels, problem->x, problem->y) != l &&
@@ -335,6 +387,8 @@ main (void)
 {
   RUN (a_stroke_that_lost_its_majority_is_overruled);
   RUN (half_a_stroke_and_specks_are_not_reported);
+  RUN (a_long_stroke_is_reported_whatever_its_share);
+  RUN (spills_are_not_reported);
   RUN (a_lost_colour_is_reported_once);
   RUN (a_lost_colour_of_outlines_is_not_reported);
   RUN (closed_regions_without_a_stroke_are_unreached);
