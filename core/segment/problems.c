@@ -14,7 +14,7 @@
 #define LARGE_SHARE        1000 /* unless they are 1/1000 of the picture */
 #define SMALLEST_AREA      9    /* pixels: smaller ones are specks on any page (chosen) */
 #define LEAST_STROKE_SHARE 8    /* nor strokes below 1/8 of a label's paint, which another stroke may have cut off, ... */
-#define LEAST_LENGTH       5    /* ... unless they are so many brush widths long (both chosen) */
+#define LONG_STROKE        5    /* ... unless they are so many brush widths long (both chosen) */
 
 /* The outcome of a connected stroke.  `other` is the label that most of its overruled pixels have, found by majority
  * vote with the margin `lead`. (x,y): the middle of the longest run of overruled pixels. */
@@ -105,7 +105,7 @@ report_overruled (const CeldSegmentTask *task, const CeldStrokes *strokes, const
   for (size_t k = 0; k < strokes->n_strokes && status == CELD_OK; k++)
     if (is_painted (task, outcome[k].label) && 2 * outcome[k].overruled > outcome[k].area &&
         (LEAST_STROKE_SHARE * outcome[k].area >= task->palette.item[outcome[k].label - 1].seeds ||
-         (double) outcome[k].area >= LEAST_LENGTH * task->brush * task->brush))
+         (double) outcome[k].area >= LONG_STROKE * task->brush * task->brush))
       status = celd_problem_add (problems, (CeldProblem) {
         .kind = CELD_PROBLEM_STROKE_OVERRULED, .x = outcome[k].x, .y = outcome[k].y, .label = outcome[k].label,
         .other = outcome[k].other, .relation = CELD_NO_INDEX });
