@@ -353,18 +353,21 @@ mark_mouths (Graph *g)
   const CeldBasins *basins = g->task->basins;
 
   g->mouth = celd_alloc0 (basins->n_boundaries, sizeof *g->mouth);
-  for (size_t i = 0; i < g->n_passages && g->mouth; i++)
+  if (!g->mouth)
+    return CELD_NO_MEMORY;
+  for (size_t i = 0; i < g->n_passages; i++)
     {
       const CeldPassage       *p = &g->passage[i];
       CeldBasinBoundary        key = { .a = p->a < p->b ? p->a : p->b, .b = p->a < p->b ? p->b : p->a };
-      const CeldBasinBoundary *b = p->mouth ? bsearch (&key, basins->boundary, basins->n_boundaries, sizeof key,
-                                                       celd_basin_boundary_compare)
-                                            : NULL;
+      const CeldBasinBoundary *found;
 
-      if (b)
-        g->mouth[b - basins->boundary] = true;
+      if (!p->mouth)
+        continue;
+      found = bsearch (&key, basins->boundary, basins->n_boundaries, sizeof key, celd_basin_boundary_compare);
+      if (found)
+        g->mouth[found - basins->boundary] = true;
     }
-  return g->mouth ? CELD_OK : CELD_NO_MEMORY;
+  return CELD_OK;
 }
 
 /* Finds the pinches of nodes that are not fixed and the passages of all, and makes room for their links. */

@@ -200,7 +200,7 @@ cli_warn_of_vain_contours (const char *path, const CliLayers *layers, CeldInkMod
   good = cli_plane_new (width, height, &copy.luma) &&
          (!layers->drawing.alpha.data || cli_plane_new (width, height, &copy.alpha)) && bake (layers, mode, &copy, &changed);
   if (good && !changed)
-    cli_say (_ ("The contours \"%s\" change nothing: they are red, blue, or over ink green."), path);
+    cli_say (_ ("The contours \"%s\" change nothing: draw them in red or blue, or in green over ink."), path);
   g_free (copy.luma.data);
   g_free (copy.alpha.data);
   return good;

@@ -334,7 +334,7 @@ class Strokes(Test):
 
     def test_contours_in_vain(self):
         """Those in another colour, and green ones on paper."""
-        says = 'The contours "contours.png" change nothing: they are red, blue, or over ink green.'
+        says = 'The contours "contours.png" change nothing: draw them in red or blue, or in green over ink.'
         words = 'segment', 'drawing.png', '--scribbles', 'scribbles.png', '--contours', 'contours.png', '--labels', 'l.png'
         for colour, line, vain in (((0, 0, 0), [(60, 24), (60, 58)], True), ((255, 220, 0), [(60, 24), (60, 58)], True),
                                    (RED, [(70, 36), (70, 50)], False), (GREEN, [(70, 36), (70, 50)], True),
