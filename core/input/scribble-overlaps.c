@@ -7,11 +7,12 @@
  * steps from one stroke to the other and to paper; none of these is flat.  Where a stroke on paper crosses itself, or
  * another of its colour, it shows its own deficit times 2 - a.
  *
- * A pixel is taken for a mixture if two strokes that it may be mixed of are seen from it, or on two opposite sides the
- * one that crosses itself, across its own colour no farther than this is wide there, and a few pixels of other paint
- * beyond.
+ * A pixel is taken for a mixture if a stroke that it may be mixed of is seen from it, across its own colour no farther
+ * than this is wide there, and a few pixels of other paint beyond; and the other stroke from any pixel of this colour,
+ * as it may be seen from the ends only where the strokes lie along each other.  Instead it may see on two opposite
+ * sides the one that crosses itself.
  *
- * Cost: O(pixels), and rays in eight directions from some hundred pixels of each label.
+ * Cost: O(pixels), and rays in eight directions from some hundred pixels of each label, twice.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -20,7 +21,7 @@
 
 #include <math.h>
 
-#define SEARCHED      16   /* pixels of other paint beyond its own colour that are searched for strokes; chosen */
+#define SEARCHED      32   /* pixels of other paint beyond its own colour that are searched for strokes; chosen */
 #define MIXING_ERROR  6    /* of 255, from the colour of a mixture to the expected one, at most; chosen */
 #define ONE_STEP      3    /* squared distance of flat colours, at most: one step in each channel */
 #define SMALLEST_PART 0.04 /* of a stroke in a mixture; chosen */
@@ -29,8 +30,30 @@
 #define LOOKED_AT     512  /* pixels of a label that are looked at, nearly; chosen */
 #define MIXED_SHARE   0.6  /* of these, at least, are mixtures if the label is none; chosen */
 
-/* Pixels of a cluster that are no fringe, how many of these were looked at, and how many of those are mixtures. */
-typedef struct { uint32_t solid, seen, mixed; } MixtureSample;
+/* Labels that are seen. */
+typedef struct
+{
+  uint32_t label[MOST_SEEN];
+  size_t   n;
+} SeenLabels;
+
+/* What is known of a cluster: its pixels that are no fringe, how many of these were looked at, how many of those are
+ * mixtures, and what is seen from any of them. */
+typedef struct
+{
+  uint32_t   solid, looked_at, mixed;
+  SeenLabels seen;
+} MixtureSample;
+
+static void
+add_seen (SeenLabels *seen, uint32_t label)
+{
+  for (size_t i = 0; i < seen->n; i++)
+    if (seen->label[i] == label)
+      return;
+  if (seen->n < MOST_SEEN)
+    seen->label[seen->n++] = label;
+}
 
 /* The cluster at a pixel; 0 for transparent, paper and colours without a cluster. */
 static uint32_t
@@ -156,25 +179,20 @@ reach (const CeldScribbleLayer *r, int x, int y, uint32_t k, int d, int most)
 }
 
 /* Adds the labels but `of` that are seen in a direction, beyond `own` pixels of that, up to the end of the paint. */
-static size_t
-look (const CeldScribbleLayer *r, int x, int y, int d, int own, uint32_t of, uint32_t *seen, size_t n)
+static void
+look (const CeldScribbleLayer *r, int x, int y, int d, int own, uint32_t of, SeenLabels *seen)
 {
   for (int i = own + 1; i <= own + SEARCHED; i++)
     {
-      size_t   at = pixel_at (r, x, y, d, i), j = 0;
+      size_t   at = pixel_at (r, x, y, d, i);
       uint32_t k;
 
       if (at == SIZE_MAX || !r->id[at] || !r->colour[r->id[at]].cluster)
         break;
       k = cluster_at (r, at);
-      if (k == of || !r->cluster[k].is_label || r->kind[at] == CELD_FRINGE)
-        continue;
-      while (j < n && seen[j] != k)
-        j++;
-      if (j == n && n < MOST_SEEN)
-        seen[n++] = k;
+      if (k != of && r->cluster[k].is_label && r->kind[at] != CELD_FRINGE)
+        add_seen (seen, k);
     }
-  return n;
 }
 
 /* Has the pixel the colour of three neighbours?  Between soft strokes only those along a step have it. */
@@ -211,6 +229,18 @@ measure_reach (const CeldScribbleLayer *r, int x, int y, uint32_t k, int *own)
   return 2 * width;
 }
 
+/* What is seen from the pixel (x,y) of cluster k, past its own pixels, own[] of them, `farthest` at most. */
+static SeenLabels
+look_around (const CeldScribbleLayer *r, int x, int y, uint32_t k, const int *own, int farthest)
+{
+  SeenLabels seen = { .n = 0 };
+
+  for (int d = 0; d < 8; d++)
+    if (own[d] <= farthest)
+      look (r, x, y, d, own[d], k, &seen);
+  return seen;
+}
+
 /* Is a stroke seen on two opposite sides of the pixel (x,y) of cluster k that shows its colour where it crosses
  * itself? */
 static bool
@@ -221,36 +251,36 @@ is_repeated (const CeldScribbleLayer *r, int x, int y, uint32_t k, const int *ow
 
   for (int d = 0; d < 8; d += 2)
     {
-      uint32_t one[MOST_SEEN], other[MOST_SEEN];
-      size_t   n = own[d] <= farthest ? look (r, x, y, d, own[d], k, one, 0) : 0;
-      size_t   m = n && own[d + 1] <= farthest ? look (r, x, y, d + 1, own[d + 1], k, other, 0) : 0;
+      SeenLabels one = { .n = 0 }, other = { .n = 0 };
 
-      for (size_t i = 0; i < n; i++)
-        for (size_t j = 0; j < m; j++)
-          if (one[i] == other[j] && is_repeated_on_paper (paper, c, r->cluster[one[i]].channel))
+      if (own[d] > farthest || own[d + 1] > farthest)
+        continue;
+      look (r, x, y, d, own[d], k, &one);
+      look (r, x, y, d + 1, own[d + 1], k, &other);
+      for (size_t i = 0; i < one.n; i++)
+        for (size_t j = 0; j < other.n; j++)
+          if (one.label[i] == other.label[j] && is_repeated_on_paper (paper, c, r->cluster[one.label[i]].channel))
             return true;
     }
   return false;
 }
 
-/* Are strokes seen from the pixel (x,y) of cluster k that it may be mixed of? */
+/* May the pixel (x,y) of cluster k be mixed of strokes seen from it and from the cluster, or show one twice? */
 static bool
-is_mixed (const CeldScribbleLayer *r, int x, int y, uint32_t k)
+is_mixed (const CeldScribbleLayer *r, int x, int y, uint32_t k, const SeenLabels *from_cluster)
 {
-  uint32_t seen[MOST_SEEN], id = r->id[(size_t) y * (size_t) r->width + (size_t) x];
-  int      own[8], farthest = measure_reach (r, x, y, k, own);
-  size_t   n = 0;
-  bool     flat;
+  uint32_t   id = r->id[(size_t) y * (size_t) r->width + (size_t) x];
+  int        own[8], farthest = measure_reach (r, x, y, k, own);
+  SeenLabels seen = look_around (r, x, y, k, own, farthest);
+  bool       flat;
 
-  for (int d = 0; d < 8; d++)
-    if (own[d] <= farthest)
-      n = look (r, x, y, d, own[d], k, seen, n);
-  if (!n)
+  if (!seen.n)
     return false;
   flat = is_flat (r, x, y);
-  for (size_t i = 0; i < n; i++)
-    for (size_t j = i + 1; j < n; j++)
-      if (is_mixture (r, id, k, seen[i], seen[j], flat))
+  for (size_t i = 0; i < seen.n; i++)
+    for (size_t j = 0; j < from_cluster->n; j++)
+      if (seen.label[i] != from_cluster->label[j] &&
+          is_mixture (r, id, k, seen.label[i], from_cluster->label[j], flat))
         return true;
   return r->paper && flat && is_repeated (r, x, y, k, own, farthest);
 }
@@ -265,6 +295,35 @@ count_labels (const CeldScribbleLayer *r)
   return n;
 }
 
+/* Notes what is seen from pixels of each label, or, if `judge`, how many of these are mixtures. */
+static void
+look_at_labels (const CeldScribbleLayer *r, MixtureSample *of, bool judge)
+{
+  for (size_t k = 1; k < r->n_clusters; k++)
+    of[k].solid = of[k].looked_at = of[k].mixed = 0;
+  for (int y = 0; y < r->height; y++)
+    for (int x = 0; x < r->width; x++)
+      {
+        size_t   i = (size_t) y * (size_t) r->width + (size_t) x;
+        uint32_t k = r->id[i] ? cluster_at (r, i) : 0;
+
+        if (!k || r->kind[i] == CELD_FRINGE || !r->cluster[k].is_label ||
+            of[k].solid++ % (1 + r->cluster[k].solid / LOOKED_AT))
+          continue;
+        of[k].looked_at++;
+        if (judge)
+          of[k].mixed += is_mixed (r, x, y, k, &of[k].seen);
+        else
+          {
+            int        own[8], farthest = measure_reach (r, x, y, k, own);
+            SeenLabels seen = look_around (r, x, y, k, own, farthest);
+
+            for (size_t j = 0; j < seen.n; j++)
+              add_seen (&of[k].seen, seen.label[j]);
+          }
+      }
+}
+
 CeldStatus
 celd_scribble_overlaps (CeldScribbleLayer *r)
 {
@@ -275,20 +334,10 @@ celd_scribble_overlaps (CeldScribbleLayer *r)
   of = celd_alloc0 (r->n_clusters, sizeof *of);
   if (!of)
     return CELD_NO_MEMORY;
-  for (int y = 0; y < r->height; y++)
-    for (int x = 0; x < r->width; x++)
-      {
-        size_t   i = (size_t) y * (size_t) r->width + (size_t) x;
-        uint32_t k = r->id[i] ? cluster_at (r, i) : 0;
-
-        if (!k || r->kind[i] == CELD_FRINGE || !r->cluster[k].is_label ||
-            of[k].solid++ % (1 + r->cluster[k].solid / LOOKED_AT))
-          continue;
-        of[k].seen++;
-        of[k].mixed += is_mixed (r, x, y, k);
-      }
+  look_at_labels (r, of, false);
+  look_at_labels (r, of, true);
   for (size_t k = 1; k < r->n_clusters; k++)
-    if (of[k].seen && of[k].mixed >= MIXED_SHARE * of[k].seen)
+    if (of[k].looked_at && of[k].mixed >= MIXED_SHARE * of[k].looked_at)
       r->cluster[k].is_label = false;
   celd_free (of);
   return CELD_OK;

@@ -97,6 +97,26 @@ a_mixture_that_lies_on_paper_is_a_label (void)
   CHECK (is_label (beside, mixed, true, 255));
 }
 
+/* B ends upon A and lies along it, so that most of C sees B neither across nor near by. */
+static void
+a_mixture_of_strokes_that_lie_along_each_other_is_no_label (void)
+{
+  static const char *const along[] = {
+    "DDDDDDDAAAAAAAAAAAAAAAAAAAAAA", "DDDDDDDAAAAAAAAAAAAAAAAAAAAAA", "BBBBBBBCCCCCCCCCCCCCCCCCCAAAA",
+    "BBBBBBBCCCCCCCCCCCCCCCCCCAAAA", "BBBBBBBCCCCCCCCCCCCCCCCCCAAAA", NULL
+  };
+  static const char *const along_without_paper[] = {
+    ".......AAAAAAAAAAAAAAAAAAAAAA", ".......AAAAAAAAAAAAAAAAAAAAAA", "BBBBBBBCCCCCCCCCCCCCCCCCCAAAA",
+    "BBBBBBBCCCCCCCCCCCCCCCCCCAAAA", "BBBBBBBCCCCCCCCCCCCCCCCCCAAAA", NULL
+  };
+  int on_white[4][3] = { { 255, 128, 128 }, { 128, 128, 255 }, { 192, 64, 128 }, { 255, 255, 255 } };
+  int pure[4][3] = { { 255, 0, 0 }, { 0, 0, 255 }, { 170, 0, 85 }, { 0, 0, 0 } };
+
+  CHECK (!is_label (along, on_white, true, 255));
+  CHECK (!is_label (along_without_paper, pure, false, 192));
+  CHECK (is_label (along_without_paper, pure, false, 128));
+}
+
 /* C is where A, of an opacity of .4, crosses itself; and a red that A, of a paint that would have to be darker than
  * black, cannot show. */
 static void
@@ -135,6 +155,7 @@ main (void)
   RUN (a_mixture_without_paper_is_more_opaque);
   RUN (a_mixture_that_touches_one_stroke_is_a_label);
   RUN (a_mixture_that_lies_on_paper_is_a_label);
+  RUN (a_mixture_of_strokes_that_lie_along_each_other_is_no_label);
   RUN (a_stroke_that_crosses_itself_is_one_label);
   RUN (a_tint_beside_a_stroke_is_a_label);
   return DONE;
