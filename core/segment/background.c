@@ -4,7 +4,9 @@
  * paint in it, counting only strokes that are at home there: those that have at least half of their paint in it.  In
  * a component, which is many enclosures behind gaps, that must be a fair share of all paint: the mean of its labels.  A
  * stroke that is at home nowhere but has half of its paint along the frame runs over hatching, and counts in every
- * enclosure along the frame.  Enclosures along the frame without an owner get seeds of the main owner.  If no label
+ * enclosure along the frame.  A stroke in a figure whose outline has a gap as wide as the paper beside it lies in one
+ * enclosure with the page.  So if no label owns a quarter of the frame in rooms, which bridges close, an enclosure that
+ * has most of the frame has no owner where its room has none: the page is not painted.  Enclosures along the frame without an owner get seeds of the main owner.  If no label
  * owns a quarter of the frame or runs over hatching, and more of the frame has no owner, they get a transparent label
  * of their own: parts of a figure that are cut off by the frame own a little of it, but are not the background.  Nor is
  * a label that the artist's relations put in front of something: in a close-up a figure may own most of the frame.
@@ -19,6 +21,14 @@
 #define MAIN_SHARE 4 /* 1 / this: a quarter of the frame is the main part of it (chosen) */
 #define FAIR_PART  8 /* 1 / this of a stroke is not where it was led by chance (chosen) */
 
+/* The parts of the drawing of one kind: how many frame pixels lie in each, and its owner. */
+typedef struct
+{
+  const uint32_t *of_basin;
+  size_t         *along;
+  uint32_t       *owner;
+} Parts;
+
 typedef struct
 {
   size_t   *pixel;    /* indices of paper pixels along the frame */
@@ -28,8 +38,16 @@ typedef struct
   size_t   *owned;    /* pixels of the frame that label l owns; owned[0]: without an owner */
   bool     *across;   /* has label l a stroke along the frame that is at home nowhere? */
   bool     *in_front; /* is label l in front of something? */
-  uint32_t *home;     /* of each enclosure: its owner */
+  Parts     enclosures, rooms;
+  bool      painted;  /* does a label own the main part in rooms? */
 } Frame;
+
+static void
+parts_clear (Parts *parts)
+{
+  celd_free (parts->along);
+  celd_free (parts->owner);
+}
 
 /* Lists the frame, without specks of paper in solid ink. */
 static CeldStatus
@@ -46,8 +64,7 @@ frame_new (const CeldSegmentTask *task, Frame *frame)
   frame->owned   = celd_alloc0 (task->palette.n + 1, sizeof *frame->owned);
   frame->across = celd_alloc0 (task->palette.n + 1, sizeof *frame->across);
   frame->in_front = celd_alloc0 (task->palette.n + 1, sizeof *frame->in_front);
-  frame->home = celd_alloc0 (task->basins->n_enclosures + 1, sizeof *frame->home);
-  if (!frame->basin || !frame->owner || !frame->owned || !frame->across || !frame->in_front || !frame->home)
+  if (!frame->basin || !frame->owner || !frame->owned || !frame->across || !frame->in_front)
     return CELD_NO_MEMORY;
   for (size_t i = 0; i < frame->n; i++)
     {
@@ -72,7 +89,8 @@ frame_clear (Frame *frame)
   celd_free (frame->owned);
   celd_free (frame->across);
   celd_free (frame->in_front);
-  celd_free (frame->home);
+  parts_clear (&frame->enclosures);
+  parts_clear (&frame->rooms);
 }
 
 /* ------------------------------------------------------------------ owners of the frame */
@@ -177,47 +195,87 @@ find_owners (const CeldStrokes *strokes, bool all_count, bool fair, const size_t
   return c.status;
 }
 
-/* Finds the owner of each part of the drawing. */
+/* Makes the record, and finds the owner of each part; n is the largest number of a part. */
 static CeldStatus
-find_part_owners (const CeldSegmentTask *task, Frame *frame, const uint32_t *part, bool fair, CeldStrokes *strokes,
-                  size_t *along, uint32_t *owner)
+parts_new (const CeldSegmentTask *task, Frame *frame, const uint32_t *of_basin, size_t n, bool fair,
+           CeldStrokes *strokes, Parts *parts)
 {
-  CeldStatus status = celd_strokes_overlap (task->basins, part, strokes);
+  CeldStatus status;
 
+  *parts = (Parts) { of_basin, celd_alloc0 (n + 1, sizeof *parts->along), celd_alloc0 (n + 1, sizeof *parts->owner) };
+  if (!parts->along || !parts->owner)
+    return CELD_NO_MEMORY;
   for (size_t i = 0; i < frame->n; i++)
-    along[part[frame->basin[i]]]++;
+    parts->along[of_basin[frame->basin[i]]]++;
+  status = celd_strokes_overlap (task->basins, of_basin, strokes);
   if (status == CELD_OK)
-    status = find_owners (strokes, celd_task_all_hard (task), fair, along, frame->across, owner);
+    status = find_owners (strokes, celd_task_all_hard (task), fair, parts->along, frame->across, parts->owner);
   return status;
 }
 
+/* Finds out whether a label owns the main part of the frame in rooms. */
+static CeldStatus
+find_painted (size_t n_labels, Frame *frame)
+{
+  size_t *owned = celd_alloc0 (n_labels + 1, sizeof *owned);
+
+  for (size_t i = 0; i < frame->n && owned; i++)
+    {
+      uint32_t owner = frame->rooms.owner[frame->rooms.of_basin[frame->basin[i]]];
+
+      owned[owner]++;
+      frame->painted |= owner && MAIN_SHARE * owned[owner] >= frame->n;
+    }
+  celd_free (owned);
+  return owned ? CELD_OK : CELD_NO_MEMORY;
+}
+
+/* Is it in a room without an owner, on a page that is not painted? */
+static bool
+is_unpainted_room (const Frame *frame, uint32_t basin)
+{
+  return !frame->painted && !frame->rooms.owner[frame->rooms.of_basin[basin]];
+}
+
 /* Finds the owner of each frame pixel: that of its enclosure.  Behind a small gap in a contour, in an enclosure that
- * does not have most of the frame, the owner of its component counts, too. */
+ * does not have most of the frame, the owner of its component counts, too.  In one that has, an unpainted page has no
+ * owner. */
+static void
+find_pixel_owners (const Parts *components, Frame *frame)
+{
+  const Parts *enclosures = &frame->enclosures;
+
+  for (size_t i = 0; i < frame->n; i++)
+    {
+      uint32_t basin = frame->basin[i], enclosure = enclosures->of_basin[basin], owner = enclosures->owner[enclosure];
+      bool     is_main = MAIN_SHARE * enclosures->along[enclosure] >= frame->n;
+
+      if (is_main && is_unpainted_room (frame, basin))
+        owner = 0;
+      else if (!is_main && !owner)
+        owner = components->owner[components->of_basin[basin]];
+      frame->owner[i] = owner;
+      frame->owned[owner]++;
+    }
+}
+
 static CeldStatus
 find_frame_owners (const CeldSegmentTask *task, CeldStrokes *strokes, Frame *frame)
 {
   const CeldBasins *b = task->basins;
-  uint32_t         *of_component = celd_alloc0 (b->n_components + 1, sizeof *of_component);
-  uint32_t         *of_enclosure = frame->home;
-  size_t           *component_along = celd_alloc0 (b->n_components + 1, sizeof *component_along);
-  size_t           *enclosure_along = celd_alloc0 (b->n_enclosures + 1, sizeof *enclosure_along);
-  CeldStatus        status = of_component && component_along && enclosure_along ? CELD_OK : CELD_NO_MEMORY;
+  const uint32_t   *room = task->bridged_component ? task->bridged_component : b->component;
+  Parts             components = { 0 };
+  CeldStatus        status = parts_new (task, frame, b->enclosure, b->n_enclosures, false, strokes, &frame->enclosures);
 
   if (status == CELD_OK)
-    status = find_part_owners (task, frame, b->enclosure, false, strokes, enclosure_along, of_enclosure);
+    status = parts_new (task, frame, b->component, b->n_components, true, strokes, &components);
   if (status == CELD_OK)
-    status = find_part_owners (task, frame, b->component, true, strokes, component_along, of_component);
-  for (size_t i = 0; i < frame->n && status == CELD_OK; i++)
-    {
-      uint32_t enclosure = b->enclosure[frame->basin[i]];
-
-      frame->owner[i] = of_enclosure[enclosure] || MAIN_SHARE * enclosure_along[enclosure] >= frame->n
-                         ? of_enclosure[enclosure] : of_component[b->component[frame->basin[i]]];
-      frame->owned[frame->owner[i]]++;
-    }
-  celd_free (of_component);
-  celd_free (component_along);
-  celd_free (enclosure_along);
+    status = parts_new (task, frame, room, b->n, true, strokes, &frame->rooms);
+  if (status == CELD_OK)
+    status = find_painted (task->palette.n, frame);
+  if (status == CELD_OK)
+    find_pixel_owners (&components, frame);
+  parts_clear (&components);
   return status;
 }
 
@@ -236,7 +294,7 @@ label_of (const CeldSegmentTask *task, const Frame *frame, const CeldTerm *term)
   if (!end.there)
     return 0;
   label = celd_seed_rows_at (&task->seeds, end.x, end.y);
-  return label ? label : frame->home[task->basins->enclosure[celd_basin_at (task->basins, end.x, end.y)]];
+  return label ? label : frame->enclosures.owner[task->basins->enclosure[celd_basin_at (task->basins, end.x, end.y)]];
 }
 
 static void
@@ -304,7 +362,8 @@ choose (CeldSegmentTask *task, const Frame *frame, uint32_t *label)
   return celd_task_add_label (task, made, label);
 }
 
-/* Adds the background's seeds in enclosures along the frame without an owner, and removes spills there.  Hard strokes
+/* Adds the background's seeds in enclosures along the frame without an owner, and removes spills there, but for those
+ * in rooms with an owner if the page is not painted.  Hard strokes
  * stay: they may lie where a bridge covers the paper.  If the background is painted, these enclosures are remembered:
  * the artist may have forgotten them. */
 static CeldStatus
@@ -319,7 +378,8 @@ seed (CeldSegmentTask *task, const CeldStrokes *strokes, Frame *frame, uint32_t 
     if (!frame->owner[i])
       unowned[enclosure[frame->basin[i]]] = true;
   for (size_t i = 0; i < strokes->n_pieces && status == CELD_OK && !celd_task_all_hard (task); i++)
-    if (unowned[enclosure[strokes->piece[i].basin]])
+    if (unowned[enclosure[strokes->piece[i].basin]] &&
+        (frame->painted || is_unpainted_room (frame, strokes->piece[i].basin)))
       status = celd_stroke_piece_remove (task, &strokes->piece[i]);
   for (size_t i = 0; i < frame->n; i++)
     if (!frame->owner[i])

@@ -362,6 +362,17 @@ def unpainted_page():
     return f
 
 
+def gap_on_unpainted_page():
+    """A figure whose outline has a gap many stroke widths wide, with a part in front of it; the page is not painted."""
+    f = Figure()
+    f.shape(box(30, 40, 200, 170))
+    f.shape(box(60, 120, 110, 170))
+    f.rub_out(188, 88, 212, 112)
+    f.stroke('scribbles', [(60, 70), (160, 70)], A)
+    f.stroke('scribbles', [(75, 145), (95, 145)], B)
+    return f
+
+
 def stopped_short(gap, x=120, width=4, outline=4):
     """A box whose left part is painted.  The wall at x stops so many stroke widths short of the upper side."""
     f = Figure()
@@ -498,9 +509,9 @@ def soft_on_white():
 
 FIGURES = [two_arrows, thick, contours, two_characters, frame, limbs, cycle, broken, pinched_little, pinched_much,
            gap_beside_bay, hairline_gaps, stubs, ring_round_bar, bay_beside_stub, bay_below_gap, rubbed_out_corner,
-           severed, close_up, nearly_touches_frame, forgotten, cut_off, unpainted_page, stopped_near,
-           stopped_farther, stopped_far, open_bay, vein, notch, hairline, stroke_on_contour, pencil_on_smooth_paper,
-           pencil_on_rough_paper, cover_on_thick, cover_on_thicker, soft_on_white]
+           severed, close_up, nearly_touches_frame, forgotten, cut_off, unpainted_page, gap_on_unpainted_page,
+           stopped_near, stopped_farther, stopped_far, open_bay, vein, notch, hairline, stroke_on_contour,
+           pencil_on_smooth_paper, pencil_on_rough_paper, cover_on_thick, cover_on_thicker, soft_on_white]
 
 
 if __name__ == '__main__':

@@ -236,6 +236,12 @@ def unpainted_page(run):
     yield 'the room in the figure is named, and no other', len(places) == 1 and 150 < places[0][0] < 190
 
 
+def gap_on_unpainted_page(run):
+    r = run()
+    yield 'the gap is closed', r.colour(190, 100) == figures.A
+    yield 'the page has no label', not r.labels[(100, 10, 190), (220, 10, 230), 3].any()
+
+
 def stopped_short(run):
     places = unreached(run())
     yield 'the room behind the gap is named, and no other', len(places) == 1 and 120 < places[0][0] < 220
@@ -279,8 +285,8 @@ def cover(run):
 
 OUTCOMES = [two_arrows, thick, contours, two_characters, frame, limbs, cycle, broken, pinched, pinched,
             gap_beside_bay, hairline_gaps, stubs, ring_round_bar, bay_beside_stub, bay_below_gap, rubbed_out_corner,
-            severed, close_up, nearly_touches_frame, forgotten, cut_off, unpainted_page, stopped_short,
-            stopped_short, stopped_short, no_room, no_room, no_room, hairline, stroke_on_contour, hairline,
+            severed, close_up, nearly_touches_frame, forgotten, cut_off, unpainted_page, gap_on_unpainted_page,
+            stopped_short, stopped_short, stopped_short, no_room, no_room, no_room, hairline, stroke_on_contour, hairline,
             hairline, cover, cover, soft_on_white]
 
 
