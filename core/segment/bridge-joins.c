@@ -240,7 +240,7 @@ celd_bridges_find_passages (const CeldBridges *bridges, const CeldPlane *ink, co
     for (size_t k = bridges->item[i].first; k < bridges->item[i].first + bridges->item[i].n; k++)
       {
         CeldBridgePixel p = bridges->pixel[k];
-        CeldPassage     pair = { .a = celd_basin_at (basins, p.x, p.y), .doubt = p.ink / CELD_FAINTEST_INK,
+        CeldPassage     pair = { .a = celd_basin_at (basins, p.x, p.y),
                                  .narrow = !holds_nothing_back (&bridges->item[i], GAP * basins->stroke) };
 
         for (int side = 0; side < 4 && status == CELD_OK; side++)

@@ -3,8 +3,8 @@
  * Where a gap is as wide as the region behind it, or wider, no narrow place of the paper shows where the contour would
  * have been; but the lines do.  Line ends that point to each other are joined, the closest and straightest pair first,
  * by the curve of closures.c; basins then meet along it.  A bridge only offers a boundary: it is used where the labels
- * on both sides differ.  Two straight ends that face each other over a short gap are nearly ink; the farther apart they
- * are and the more the line has to turn, the fainter their bridge is drawn, and the more a boundary on it costs.
+ * on both sides differ.  Over a short gap a bridge is nearly ink; the farther apart its ends are, the fainter it is
+ * drawn, and the more a boundary on it costs.
  *
  * An end without a partner may have reached as far as the line that it points at.  That is a mere guess: strokes that
  * only adorn a part end in the same way.
@@ -21,10 +21,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define CERTAIN_LENGTH  6      /* stroke widths: up to here a bridge is certain (chosen, as the next three) */
-#define DOUBTFUL_LENGTH 12     /* from here on it is a guess */
-#define CERTAIN_COSINE  0.94   /* of the larger angle by which it turns: certain up to 20 degrees */
-#define DOUBTFUL_COSINE 0.5    /* a guess from 60 degrees on */
+#define CERTAIN_LENGTH  6      /* stroke widths: up to here a bridge is certain (chosen) */
+#define DOUBTFUL_LENGTH 12     /* from here on it is a guess (chosen) */
 #define THINNEST_SIDE   0.4    /* of the ink ahead, in the line's direction: a line this wide may be a room's side (chosen) */
 #define BROADEST_SIDE   2      /* stroke widths: nor is a broader one (chosen) */
 #define MOST_AHEAD      6      /* stroke widths from a single end to the ink that it points at, at most (chosen) */
@@ -42,22 +40,13 @@ typedef struct
 
 /* ------------------------------------------------------------------ bridges */
 
-/* Falls from 1 at `certain` to 0 at `doubtful`. */
+/* How doubtful it is that the contour went on from one line end to the other: 0 .. 1. */
 static double
-ramp (double value, double certain, double doubtful)
+doubt (const CeldTip *p, const CeldTip *q)
 {
-  return fmax (0, fmin (1, (value - doubtful) / (certain - doubtful)));
-}
+  double strokes = hypot (q->x - p->x, q->y - p->y) / celd_finer_stroke (p, q);
 
-/* How certain it is that the contour went on from one line end to the other: 0 .. 1. */
-static double
-certainty (const CeldTip *p, const CeldTip *q)
-{
-  double x = q->x - p->x, y = q->y - p->y, length = hypot (x, y);
-  double turn = (x * p->dx + y * p->dy) / length, other = -(x * q->dx + y * q->dy) / length;
-
-  return ramp (fmin (turn, other), CERTAIN_COSINE, DOUBTFUL_COSINE) *
-         ramp (length / celd_finer_stroke (p, q), CERTAIN_LENGTH, DOUBTFUL_LENGTH);
+  return fmax (0, fmin (1, (strokes - CERTAIN_LENGTH) / (DOUBTFUL_LENGTH - CERTAIN_LENGTH)));
 }
 
 /* Adds a pixel to the last bridge, unless it is the previous one or ink. */
@@ -134,7 +123,7 @@ build_between (BridgeBuilder *b, const CeldTipPair *pair)
   celd_line_end_set_tip (p, &from);
   celd_line_end_set_tip (q, &to);
   n = celd_curve_draw (&from, &to, place);
-  b->faintness = CELD_FAINTEST_INK * (float) (1 - certainty (p, q));
+  b->faintness = CELD_FAINTEST_INK * (float) doubt (p, q);
   status       = build (b, (CeldBridge) { .end = { *p, *q } }, place, n, celd_finer_stroke (p, q), &built);
   if (built)
     b->taken[pair->a] = b->taken[pair->b] = true;

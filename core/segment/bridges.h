@@ -88,10 +88,10 @@ CeldStatus celd_bridges_make_basins (const CeldPlane *ink, CeldRect *changed, fl
 CeldStatus celd_bridges_join (const CeldBridges *bridges, const CeldPlane *ink, CeldBasins *basins,
                               uint32_t **bridged_component);
 
-/* Two basins that a bridge parts, and that are one paper without it.  `doubt`: 0 if the bridge is certain, 1 if it is a
- * mere guess.  `narrow`: it has two ends and is at most two stroke widths long, like a gap in a contour.  `mouth`: it
- * goes on from a single end, and the part on one of its sides is no wider than it is, like a bay that opens there. */
-typedef struct { uint32_t a, b; float doubt; bool narrow, mouth; } CeldPassage;
+/* Two basins that a bridge parts, and that are one paper without it.  `narrow`: it has two ends and is at most two
+ * stroke widths long, like a gap in a contour.  `mouth`: it goes on from a single end, and the part on one of its sides
+ * is no wider than it is, like a bay that opens there. */
+typedef struct { uint32_t a, b; bool narrow, mouth; } CeldPassage;
 
 /* Lists the passages, one for each pixel of a bridge and neighbour of it on paper in another basin; `ink` is without
  * bridges.  To be freed with celd_free; CELD_NO_MEMORY is the only failure. */

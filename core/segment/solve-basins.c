@@ -22,14 +22,12 @@
 #include "solve/maxflow.h"
 #include "solve/partition.h"
 
-#include <math.h>
 #include <stdlib.h>
 
 #define OUTLINE_SHARE    16 /* an outline towards the background counts 1 / so much as a barrier (chosen) */
 #define PASSAGE_WEAKNESS (1 << 20) /* of a pixel of a bridge as a barrier: as 1024 of the thinnest line, and far less
                                     * than paper without a bridge (chosen) */
-#define LEAST_DOUBT      (1 / 256.0f) /* of that in a narrow gap whose bridge is certain: as 4 of the thinnest line
-                                       * (chosen) */
+#define NARROW_WEAKNESS  (1 << 12) /* the same in a narrow gap: as 4 of the thinnest line (chosen) */
 #define SHARED           UINT32_MAX /* value of sole_label: several labels have paint there */
 
 typedef struct
@@ -243,14 +241,13 @@ barrier_weakness (const Graph *g, size_t i)
 }
 
 /* How much weaker a boundary is by a passage.  What opens to the background by more than a narrow gap may still be a
- * gap in an outline, unless it is the mouth of a bay; over a narrow gap between two other parts the line goes on as
- * surely as its bridge is certain. */
+ * gap in an outline, unless it is the mouth of a bay; over a narrow gap between two other parts the line goes on. */
 static int64_t
 passage_weakness (const Graph *g, const CeldPassage *passage)
 {
   if (meets_background (g, passage->a, passage->b) && !passage->mouth)
     return passage->narrow ? 0 : PASSAGE_WEAKNESS / OUTLINE_SHARE;
-  return passage->narrow ? (int64_t) (PASSAGE_WEAKNESS * fmaxf (passage->doubt, LEAST_DOUBT)) : PASSAGE_WEAKNESS;
+  return passage->narrow ? NARROW_WEAKNESS : PASSAGE_WEAKNESS;
 }
 
 /* Lists the boundaries between nodes, each with its smoothness cost or, if `barriers`, with how weak it is, and then
