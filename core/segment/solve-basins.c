@@ -8,27 +8,17 @@
  * Cutting a part off at a neck of two pixels can cost less than the part's outline.  With keep_necks a merged basin
  * with paint of one label keeps that label, whatever a cut would save.
  *
- * The energy gives a node without paint to the label with the longest border, through a thick outline rather than a
- * pinch.  So these are cut once more, with the labels of all others given: they go over the weakest barrier, or, if a
- * pinch has cut them off in a drawing with lines of a pixel, to the region that they are part of (pinches.c).  Where
- * no paper leads to paint, a bridge is a weaker barrier than any ink: nobody drew it (bridge-joins.c).
+ * Nodes without paint are cut once more, with the labels of all others given (unpainted-basins.c).
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "base/base.h"
 #include "segment/basins.h"
-#include "segment/bridges.h"
 #include "segment/task.h"
 #include "solve/maxflow.h"
 #include "solve/partition.h"
 
-#include <stdlib.h>
-
-#define OUTLINE_SHARE    16 /* an outline towards the background counts 1 / so much as a barrier (chosen) */
-#define PASSAGE_WEAKNESS (1 << 20) /* of a pixel of a bridge as a barrier: as 1024 of the thinnest line, and far less
-                                    * than paper without a bridge (chosen) */
-#define NARROW_WEAKNESS  (1 << 12) /* the same in a narrow gap: as 4 of the thinnest line (chosen) */
-#define SHARED           UINT32_MAX /* value of sole_label: several labels have paint there */
+#define SHARED UINT32_MAX /* value of sole_label: several labels have paint there */
 
 typedef struct
 {
@@ -42,11 +32,7 @@ typedef struct
   uint32_t              *order;
   CeldLink              *link;
   CeldVote              *vote;
-  CeldPinch             *pinch;
-  CeldPassage           *passage;
-  bool                  *mouth;      /* of boundary i: a passage in it is the mouth of a bay */
-  size_t                 n_links, n_votes, n_pinches, n_passages;
-  size_t                 vote_capacity;
+  size_t                 n_links, n_votes, vote_capacity;
 } Graph;
 
 static CeldStatus
@@ -79,9 +65,6 @@ graph_clear (Graph *g)
   celd_free (g->order);
   celd_free (g->link);
   celd_free (g->vote);
-  celd_free (g->pinch);
-  celd_free (g->passage);
-  celd_free (g->mouth);
 }
 
 /* ------------------------------------------------------------------ nodes */
@@ -220,106 +203,23 @@ gather_data_costs (Graph *g)
   return CELD_OK;
 }
 
-/* Is the background on one side? */
-static bool
-meets_background (const Graph *g, uint32_t a, uint32_t b)
-{
-  uint32_t p = g->fixed[g->node[a]], q = g->fixed[g->node[b]];
-
-  return (p && g->task->palette.item[p - 1].background) || (q && g->task->palette.item[q - 1].background);
-}
-
-/* How weak boundary i is as a barrier.  Closed lines towards the background are taken to be outlines: an unpainted part
- * inside one is rather a piece of the figure that the artist forgot. */
-static int64_t
-barrier_weakness (const Graph *g, size_t i)
-{
-  const CeldBasinBoundary *b = &g->task->basins->boundary[i];
-  bool                     open = b->opening || (g->mouth && g->mouth[i]);
-
-  return meets_background (g, b->a, b->b) && !open ? b->weakness / OUTLINE_SHARE : b->weakness;
-}
-
-/* How much weaker a boundary is by a passage.  What opens to the background by more than a narrow gap may still be a
- * gap in an outline, unless it is the mouth of a bay; over a narrow gap between two other parts the line goes on. */
-static int64_t
-passage_weakness (const Graph *g, const CeldPassage *passage)
-{
-  if (meets_background (g, passage->a, passage->b) && !passage->mouth)
-    return passage->narrow ? 0 : PASSAGE_WEAKNESS / OUTLINE_SHARE;
-  return passage->narrow ? NARROW_WEAKNESS : PASSAGE_WEAKNESS;
-}
-
-/* Lists the boundaries between nodes, each with its smoothness cost or, if `barriers`, with how weak it is, and then
- * also the pinches and passages; returns their number. */
-static size_t
-list_links (const Graph *g, bool barriers, CeldLink *link)
+/* Sums up the smoothness costs between each two nodes. */
+static CeldStatus
+gather_links (Graph *g)
 {
   const CeldBasins *basins = g->task->basins;
-  size_t            n = 0;
+  CeldLink         *listed = celd_alloc (basins->n_boundaries, sizeof *listed);
+  CeldStatus        status = CELD_NO_MEMORY;
 
-  for (size_t i = 0; i < basins->n_boundaries; i++)
+  for (size_t i = 0; i < basins->n_boundaries && listed; i++)
     {
       const CeldBasinBoundary *b = &basins->boundary[i];
 
-      link[n++] = (CeldLink) { g->node[b->a], g->node[b->b], barriers ? barrier_weakness (g, i) : b->cost };
+      listed[i] = (CeldLink) { g->node[b->a], g->node[b->b], b->cost };
     }
-  for (size_t i = 0; i < g->n_pinches && barriers; i++)
-    link[n++] = (CeldLink) { g->node[g->pinch[i].a], g->node[g->pinch[i].b], g->pinch[i].weakness };
-  for (size_t i = 0; i < g->n_passages && barriers; i++)
-    link[n++] = (CeldLink) { g->node[g->passage[i].a], g->node[g->passage[i].b],
-                             passage_weakness (g, &g->passage[i]) };
-  return n;
-}
-
-/* Sums up what joins each two nodes to a link: smoothness costs or, if `barriers`, how weak the barrier is. */
-static CeldStatus
-gather_links (Graph *g, bool barriers)
-{
-  size_t      most = g->task->basins->n_boundaries + g->n_pinches + g->n_passages, n;
-  CeldLink   *listed = celd_alloc (most, sizeof *listed);
-  size_t     *first = celd_alloc0 (g->n + 2, sizeof *first);      /* of node k's links, as the lesser node */
-  uint32_t   *sorted = celd_alloc (most, sizeof *sorted);
-  size_t     *found = celd_alloc (g->n, sizeof *found);           /* by node: its link with the current one */
-  CeldStatus  status = listed && first && sorted && found ? CELD_OK : CELD_NO_MEMORY;
-
-  if (status != CELD_OK)
-    goto done;
-  n = list_links (g, barriers, listed);
-  g->n_links = 0;
-  for (size_t k = 0; k < g->n; k++)
-    found[k] = SIZE_MAX;
-  for (size_t i = 0; i < n; i++)
-    first[(listed[i].a < listed[i].b ? listed[i].a : listed[i].b) + 2]++;
-  for (size_t k = 2; k < g->n + 2; k++)
-    first[k] += first[k - 1];
-  for (size_t i = 0; i < n; i++)
-    sorted[first[(listed[i].a < listed[i].b ? listed[i].a : listed[i].b) + 1]++] = (uint32_t) i;
-  for (size_t k = 0; k < g->n; k++)
-    {
-      size_t begin = g->n_links;
-
-      for (size_t i = first[k]; i < first[k + 1]; i++)
-        {
-          const CeldLink *link = &listed[sorted[i]];
-          uint32_t        other = link->a == k ? link->b : link->a;
-
-          if (other == k)
-            continue;
-          if (found[other] == SIZE_MAX || found[other] < begin)
-            {
-              found[other] = g->n_links;
-              g->link[g->n_links++] = (CeldLink) { (uint32_t) k, other, 0 };
-            }
-          g->link[found[other]].cost += link->cost;
-        }
-    }
-
-done:
+  if (listed)
+    status = celd_links_sum (g->n, listed, basins->n_boundaries, g->link, &g->n_links);
   celd_free (listed);
-  celd_free (first);
-  celd_free (sorted);
-  celd_free (found);
   return status;
 }
 
@@ -343,54 +243,6 @@ fix_painted (Graph *g, bool *painted)
   return unpainted;
 }
 
-/* Marks the boundaries in which bays open. */
-static CeldStatus
-mark_mouths (Graph *g)
-{
-  const CeldBasins *basins = g->task->basins;
-
-  g->mouth = celd_alloc0 (basins->n_boundaries, sizeof *g->mouth);
-  if (!g->mouth)
-    return CELD_NO_MEMORY;
-  for (size_t i = 0; i < g->n_passages; i++)
-    {
-      const CeldPassage       *p = &g->passage[i];
-      CeldBasinBoundary        key = { .a = p->a < p->b ? p->a : p->b, .b = p->a < p->b ? p->b : p->a };
-      const CeldBasinBoundary *found;
-
-      if (!p->mouth)
-        continue;
-      found = bsearch (&key, basins->boundary, basins->n_boundaries, sizeof key, celd_basin_boundary_compare);
-      if (found)
-        g->mouth[found - basins->boundary] = true;
-    }
-  return CELD_OK;
-}
-
-/* Finds the pinches of nodes that are not fixed and the passages of all, and makes room for their links. */
-static CeldStatus
-find_ways (Graph *g)
-{
-  const CeldBasins *basins = g->task->basins;
-  bool             *wanted = celd_alloc (basins->n, sizeof *wanted);
-  CeldStatus        status = wanted ? CELD_OK : CELD_NO_MEMORY;
-
-  for (size_t k = 0; k < basins->n && wanted; k++)
-    wanted[k] = !g->fixed[g->node[k]];
-  if (status == CELD_OK)
-    status = celd_pinches_find (g->task->ink, basins, wanted, &g->pinch, &g->n_pinches);
-  celd_free (wanted);
-  if (status == CELD_OK && g->task->bridges)
-    status = celd_bridges_find_passages (g->task->bridges, g->task->ink, basins, &g->passage, &g->n_passages);
-  if (status == CELD_OK && g->n_passages)
-    status = mark_mouths (g);
-  if (status != CELD_OK || !(g->n_pinches + g->n_passages))
-    return status;
-  celd_free (g->link);
-  g->link = celd_alloc (basins->n_boundaries + g->n_pinches + g->n_passages, sizeof *g->link);
-  return g->link ? CELD_OK : CELD_NO_MEMORY;
-}
-
 /* Nodes with paint keep their labels, and all others get the label behind the weakest barrier. */
 static CeldStatus
 label_unpainted (Graph *g, const CeldHost *host)
@@ -400,17 +252,8 @@ label_unpainted (Graph *g, const CeldHost *host)
   CeldStatus status = painted ? CELD_OK : CELD_NO_MEMORY;
 
   celd_free (painted);
-  if (status != CELD_OK || !unpainted || unpainted == g->n)
-    return status;
-  status = find_ways (g);
-  if (status == CELD_OK)
-    status = gather_links (g, true);
-  if (status == CELD_OK)
-    {
-      CeldPartition problem = { g->n, g->link, g->n_links, NULL, 0, g->fixed, g->order, g->task->palette.n };
-
-      status = celd_partition (&problem, host, g->label, NULL, NULL);
-    }
+  if (status == CELD_OK && unpainted && unpainted < g->n)
+    status = celd_unpainted_solve (g->task, g->node, g->n, g->fixed, g->order, host, g->label);
   return status;
 }
 
@@ -436,7 +279,7 @@ celd_basin_graph_solve (const CeldSegmentTask *task, const CeldHost *host, uint3
   if (status == CELD_OK)
     status = gather_data_costs (&g);
   if (status == CELD_OK)
-    status = gather_links (&g, false);
+    status = gather_links (&g);
   if (status == CELD_OK)
     status = celd_task_label_order (task, g.order);
   if (status == CELD_OK)

@@ -197,6 +197,13 @@ typedef struct { uint32_t a, b; int64_t weakness; } CeldPinch;
 CeldStatus celd_pinches_find (const CeldPlane *ink, const CeldBasins *basins, const bool *wanted, CeldPinch **pinch,
                               size_t *n);
 
+/* ------------------------------------------------------------------ unpainted-basins.c: basins without paint */
+
+/* Gives the nodes without paint the label behind the weakest barrier.  node[k] < n is that of basin k, fixed[k] the
+ * label of node k, or 0 if it has no paint; `order` is by celd_task_label_order.  label[k] becomes that of node k. */
+CeldStatus celd_unpainted_solve (const CeldSegmentTask *task, const uint32_t *node, size_t n, const uint32_t *fixed,
+                                 const uint32_t *order, const CeldHost *host, uint32_t *label);
+
 /* ------------------------------------------------------------------ solve-pixels.c, solve-basins.c */
 
 /* The labels of all pixels by greedy cuts of LazyBrush [SDC09b]; `labels` is tight. */

@@ -1,6 +1,7 @@
 /* Minimum cuts of graphs, and labels on them: the Potts energy of LazyBrush [SDC09b] on the nodes of a basin graph.
  *
  *   flow.c                minimum cuts
+ *   links.c               links that are listed several times, summed up
  *   partition.c           many labels: the problem made ready
  *   partition-greedy.c    separates the labels in turn
  *   partition-expand.c    alpha-expansion
@@ -43,6 +44,12 @@ CeldStatus celd_partition (const CeldPartition *problem, const CeldHost *host, u
 
 /* The energy of any labelling. */
 int64_t celd_partition_energy (const CeldPartition *problem, const uint32_t *label);
+
+/* ------------------------------------------------------------------ links.c: links summed up */
+
+/* Sums up what is listed of each two of n nodes, in any order, to a link; of a node and itself nothing counts.  `link`
+ * has room for all that is listed. */
+CeldStatus celd_links_sum (size_t n, const CeldLink *listed, size_t n_listed, CeldLink *link, size_t *n_links);
 
 /* ------------------------------------------------------------------ flow.c: minimum cuts */
 
