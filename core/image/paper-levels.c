@@ -189,27 +189,6 @@ fill_tiles (Tiles *t)
     }
 }
 
-/* Smooths the tiles' levels; linear slopes stay as they are, also at the picture's edge. */
-static void
-smooth_tiles (Tiles *t)
-{
-  for (int y = 0; y < t->height; y++)
-    for (int x = 0; x < t->width; x++)
-      {
-        const float *l = t->level + y * t->width + x;
-
-        t->spare[y * t->width + x] = x > 0 && x < t->width - 1 ? 0.25f * (l[-1] + l[1]) + 0.5f * l[0] : l[0];
-      }
-  for (int y = 0; y < t->height; y++)
-    for (int x = 0; x < t->width; x++)
-      {
-        const float *l = t->spare + y * t->width + x;
-        bool         inside = y > 0 && y < t->height - 1;
-
-        t->level[y * t->width + x] = inside ? 0.25f * (l[-t->width] + l[t->width]) + 0.5f * l[0] : l[0];
-      }
-}
-
 /* The first of the two tiles, of `n` in a row, between whose middles a pixel lies; *share is the weight of the second,
  * outside [0,1] beyond the middles of the outermost tiles: there the slope continues. */
 static int
@@ -271,7 +250,6 @@ measure_tiles (const CeldPlane *value, Tiles *t)
       t->level[y * t->width + x] = fmaxf (upper_value (t, value, x * t->side, y * t->side), DARKEST);
   drop_inked_tiles (t);
   fill_tiles (t);
-  smooth_tiles (t);
   return CELD_OK;
 }
 
