@@ -12,10 +12,7 @@
 #define FLAT_BLOCK 8  /* pixels, a side; chosen */
 #define LINELESS   40 /* of 255: green differs by less in a block without lines; chosen */
 #define QUITE_FLAT 2  /* of 255: what each channel may differ in a quite flat block, from rounding; chosen */
-#define SHARES     32 /* by which red's and green's shares of a colour are counted; chosen */
 #define FEW_FILLS  16 /* quite flat blocks of other hues, at least; chosen */
-
-typedef uint32_t Hues[SHARES][SHARES]; /* blocks, by the shares of red and green */
 
 /* The mean and the range of each channel in a block. */
 static void
@@ -41,7 +38,7 @@ read_block (const CeldMask channel[3], int left, int top, float mean[3], int ran
 
 /* Counts the blocks without lines that are light enough to have a hue, and those of them that are quite flat. */
 static void
-count_hues (const CeldMask channel[3], Hues all, Hues flat)
+count_hues (const CeldMask channel[3], CeldHueCounts all, CeldHueCounts flat)
 {
   float mean[3];
   int   range[3];
@@ -52,24 +49,22 @@ count_hues (const CeldMask channel[3], Hues all, Hues flat)
         read_block (channel, x, y, mean, range);
         if (range[1] < LINELESS && mean[0] + mean[1] + mean[2] > 100)
           {
-            float whole = (mean[0] + mean[1] + mean[2]) * (1.0f + 1e-6f);
-            int   r = (int) (mean[0] / whole * SHARES), g = (int) (mean[1] / whole * SHARES);
-
-            all[r][g]++;
-            flat[r][g] += range[0] <= QUITE_FLAT && range[1] <= QUITE_FLAT && range[2] <= QUITE_FLAT;
+            (*celd_hue_count (all, mean[0], mean[1], mean[2]))++;
+            *celd_hue_count (flat, mean[0], mean[1], mean[2]) +=
+              range[0] <= QUITE_FLAT && range[1] <= QUITE_FLAT && range[2] <= QUITE_FLAT;
           }
       }
 }
 
 /* How many of these blocks have another hue than one, or those next to it; *all becomes how many there are. */
 static uint32_t
-count_others (Hues of, int red, int green, uint32_t *all)
+count_others (CeldHueCounts of, int red, int green, uint32_t *all)
 {
   uint32_t others = 0;
 
   *all = 0;
-  for (int r = 0; r < SHARES; r++)
-    for (int g = 0; g < SHARES; g++)
+  for (int r = 0; r < CELD_HUE_SHARES; r++)
+    for (int g = 0; g < CELD_HUE_SHARES; g++)
       {
         *all += of[r][g];
         others += abs (r - red) > 1 || abs (g - green) > 1 ? of[r][g] : 0;
@@ -80,13 +75,13 @@ count_others (Hues of, int red, int green, uint32_t *all)
 bool
 celd_is_coloured (const CeldMask channel[3])
 {
-  Hues     of = { { 0 } }, flat = { { 0 } };
-  int      red = 0, green = 0;
-  uint32_t all;
+  CeldHueCounts of = { { 0 } }, flat = { { 0 } };
+  int           red = 0, green = 0;
+  uint32_t      all;
 
   count_hues (channel, of, flat);
-  for (int r = 0; r < SHARES; r++)
-    for (int g = 0; g < SHARES; g++)
+  for (int r = 0; r < CELD_HUE_SHARES; r++)
+    for (int g = 0; g < CELD_HUE_SHARES; g++)
       if (of[r][g] > of[red][green])
         {
           red   = r;

@@ -26,6 +26,21 @@ celd_most (float a, float b)
   return a > b ? a : b;
 }
 
+/* ------------------------------------------------------------------ hues */
+
+/* Counts of colours by the shares of red and green in them. */
+#define CELD_HUE_SHARES 32 /* chosen */
+typedef uint32_t CeldHueCounts[CELD_HUE_SHARES][CELD_HUE_SHARES];
+
+/* The count of a colour, 0 .. 255. */
+static inline uint32_t *
+celd_hue_count (CeldHueCounts of, float red, float green, float blue)
+{
+  float whole = (red + green + blue) * (1 + 1e-6f) + 1e-3f; /* shares are less than 1 */
+
+  return &of[(int) (red / whole * CELD_HUE_SHARES)][(int) (green / whole * CELD_HUE_SHARES)];
+}
+
 /* ------------------------------------------------------------------ paper.c: the kind of drawing, and its values */
 
 /* The mode to use for a drawing: never CELD_INK_AUTO, and CELD_INK_ALPHA only if the drawing has transparency. */

@@ -29,7 +29,6 @@
 #define LEAST_SHADES  0.6f  /* share of points with a shade, at least; measured in 60 drawings: .71 and more with such lines
                              * of 3 pixels and more, .47 and less with lines of one colour */
 #define MOST_ALIKE    0.85f /* share of these where lines have the same hue, at most; chosen */
-#define HUE_SHARES    32    /* by which red's and green's shares of a colour are counted; chosen */
 
 typedef struct { float red, green, blue; } Colour;
 
@@ -38,7 +37,7 @@ typedef struct
   const CeldPaint *colours;
   const CeldPlane *ink;
   size_t           compared, shades;                 /* points that can be compared; that have a shade */
-  uint32_t         of_hue[HUE_SHARES][HUE_SHARES];   /* these, by the shares of red and green in the line's colour */
+  CeldHueCounts    of_hue;                           /* these, by the line's hue */
 } ShadeReader;
 
 /* ------------------------------------------------------------------ colours */
@@ -129,9 +128,8 @@ count_hue (ShadeReader *s, const CeldContourEdges *edges, const CeldEdgePoint *p
 {
   uint32_t pixel = celd_shade_pixel (edges, p), width = (uint32_t) edges->width;
   Colour   c = colour_at (s, (float) (pixel % width), (float) (pixel / width));
-  float    whole = (c.red + c.green + c.blue) * (1 + 1e-6f) + 1e-3f;
 
-  s->of_hue[(int) (c.red / whole * HUE_SHARES)][(int) (c.green / whole * HUE_SHARES)]++;
+  (*celd_hue_count (s->of_hue, c.red, c.green, c.blue))++;
 }
 
 static void
@@ -161,8 +159,8 @@ count_commonest_hue (const ShadeReader *s)
 {
   size_t most = 0;
 
-  for (int r = 1; r < HUE_SHARES - 1; r++)
-    for (int g = 1; g < HUE_SHARES - 1; g++)
+  for (int r = 1; r < CELD_HUE_SHARES - 1; r++)
+    for (int g = 1; g < CELD_HUE_SHARES - 1; g++)
       {
         size_t sum = 0;
 
