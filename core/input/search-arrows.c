@@ -19,6 +19,8 @@
 #define LED_FROM      4.5  /* widths from the end of a line from where it is led on straight to others, ... */
 #define LED_TO        1.5  /* ... through the point so far from there; chosen */
 #define LED_REACH     2    /* widths between ends of lines that are led on to one place; chosen */
+#define LED_NEAR      0.5  /* widths up to which that place is a better one for arrows with heads, ... */
+#define LED_APART     1    /* ... and beyond which nobody can tell which of both is right; measured */
 #define MOST_LED_FROM 0.6  /* of the length of a line; chosen */
 
 static void
@@ -114,9 +116,10 @@ point_of (const CeldShaft *shaft, int end, double distance)
   return celd_search_between (shaft->at[k], shaft->at[k + 1 < shaft->n ? k + 1 : k], at - (double) k);
 }
 
-/* The place where lines meet that end at a place or next to it, led on straight; the place itself if that is far. */
+/* The place where lines meet that end at a place or next to it, led on straight; the place itself if that is far, or,
+ * where heads may hide how lines go on, not near.  *apart: widths between both; 0 = they are too far from each other. */
 static CeldPoint
-meeting_at (const CeldArrowSearch *s, CeldPoint place)
+meeting_at (const CeldArrowSearch *s, CeldPoint place, double *apart)
 {
   CeldLineSums sums = { 0 };
   CeldPoint    meeting;
@@ -135,7 +138,10 @@ meeting_at (const CeldArrowSearch *s, CeldPoint place)
           }
       }
   meeting = celd_line_sums_point (&sums, place);
-  return celd_points_apart (meeting, place) < LED_REACH * s->width ? meeting : place;
+  *apart  = celd_points_apart (meeting, place) / s->width;
+  if (*apart >= LED_REACH)
+    *apart = 0;
+  return *apart > 0 && *apart < (s->style == CELD_ARROW_HEAD ? LED_NEAR : LED_REACH) ? meeting : place;
 }
 
 /* Makes the chosen arrows the lines of a graph. */
@@ -149,6 +155,7 @@ make_lines (const CeldArrowSearch *s, const CeldArrowReason *unclear, CeldStroke
       const CeldArrowOption *o = &s->option[s->choice.item[i]];
       const size_t          *place = s->shaft[o->shaft].place;
       CeldStrokeLine         line = { .node = { (int) place[0], (int) place[1] } };
+      double                 nearer_apart, farther_apart;
 
       status = line_of (&s->shaft[o->shaft], &line);
       if (status == CELD_OK)
@@ -156,10 +163,12 @@ make_lines (const CeldArrowSearch *s, const CeldArrowReason *unclear, CeldStroke
       if (status != CELD_OK)
         celd_free (line.at);
       arrows[i] = (CeldLineArrow) {
-        .nearer  = meeting_at (s, celd_option_place (s, o, s->style == CELD_ARROW_DOT)),
-        .farther = meeting_at (s, celd_option_place (s, o, s->style != CELD_ARROW_DOT)),
+        .nearer  = meeting_at (s, celd_option_place (s, o, s->style == CELD_ARROW_DOT), &nearer_apart),
+        .farther = meeting_at (s, celd_option_place (s, o, s->style != CELD_ARROW_DOT), &farther_apart),
         .unclear = unclear[i], .first = i,
       };
+      if (!arrows[i].unclear && s->style == CELD_ARROW_HEAD && fmax (nearer_apart, farther_apart) > LED_APART)
+        arrows[i].unclear = CELD_REASON_MEETING;
     }
   return status;
 }
