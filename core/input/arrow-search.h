@@ -290,6 +290,32 @@ bool celd_chosen_is_crossed_twice (const CeldArrowSearch *search, size_t i);
 /* Does it lie on another one for long?  Then one of them may be part of the other. */
 bool celd_chosen_is_on_another (const CeldArrowSearch *search, size_t i);
 
+/* ------------------------------------------------------------------ search-shown.c */
+
+#define CELD_LEAST_OWN 0.8 /* area of the paint of a head or dot that no line explains, in square widths; chosen */
+
+/* The chosen arrows, and of each: its margin, whether the graph gives it, too, and whether it is clear if others do not
+ * count. */
+typedef struct
+{
+  CeldArrowSearch       *s;
+  const CeldJoinedLines *lines;
+  const double          *margin;
+  CeldChoicePaint        paint;
+  bool                   agreed[CELD_MOST_CHOSEN], clear[CELD_MOST_CHOSEN];
+} CeldClearness;
+
+/* Does something show that arrows end at a place: a head or dot, or that none of them can go on straight there?  Of
+ * arrows with dots, one that cannot is enough. */
+bool celd_clear_is_shown (const CeldClearness *r, size_t place);
+
+/* May arrow i and another one be one arrow that passes the place between them? */
+bool celd_clear_may_pass (const CeldClearness *r, size_t i);
+
+/* Does arrow i end with others, without a head or dot, where a third one passes, or where four ends look like a
+ * crossing?  Then it may be part of one that crosses there. */
+bool celd_clear_may_cross (const CeldClearness *r, size_t i);
+
 /* ------------------------------------------------------------------ search-clear.c */
 
 /* Of each chosen option: why its arrow is unclear.  margin is that of celd_search_margins_find; `unclear` has room for

@@ -32,6 +32,7 @@
  *   search-choice.c      what a choice of arrows costs
  *   search-moves.c       the choice that costs least
  *   search-margins.c     how much better its arrows are than others
+ *   search-shown.c       what shows that they end where they do
  *   search-arrows.c      arrows that share ends, read by that choice
  *   joined-paint.c       which paint belongs to which of such arrows
  *   joined-arrows.c      arrows of one colour that share ends
