@@ -18,20 +18,24 @@
 #define CROWD_MARGIN       0.5  /* ... if others that are clear end at its tip, ... */
 #define CROWD              2    /* ... so many at least: heads on each other have small margins; ... */
 #define DOT_MARGIN         0.5  /* ... or if it has a dot, ... */
-#define DOUBT_MARGIN       1    /* ... and more for each doubt */
+#define DOUBT_MARGIN       1    /* ... and more for each doubt, ... */
+#define MAY_PASS_MARGIN    0.5  /* ... or for one that may pass, because its end is marked by others */
+#define SHORT_MARGIN       2    /* of a short arrow with a head */
 #define AS_GOOD_MARGIN     0.02 /* of choices that are as good */
 #define ARROW_MOST_REST    0.35 /* area of unexplained paint that is next to an arrow with a head, ... */
 #define CERTAIN_MOST_REST  1    /* ... to one that is certain, ... */
 #define CERTAIN_MARGIN     6    /* ... for it has so much of a margin, ... */
 #define DOT_MOST_REST      0.25 /* ... or to one with a dot, which is no wider; ... */
 #define TAIL_MOST_REST     0.5  /* ... and where one with a head begins, even if it is next to others, ... */
-#define DOT_ROUND_REST     0.4  /* ... or all round one with a dot */
+#define DOT_ROUND_REST     0.4  /* ... or all round one with a dot, ... */
+#define HEAD_ROUND_REST    0.3  /* ... or with a head, unless its margin ... */
+#define ROUND_MARGIN       3    /* ... is so large */
 #define SHORTEST           7    /* length of an arrow */
 #define PROFILE_MARGIN     2    /* of an arrow that fades or tapers, ... */
 #define PROFILE_MOST_REST  1.5  /* ... and area of unexplained paint next to it */
 #define MOST_OF_VALUES     0.8  /* cost of its values at its ends */
 #define MOST_OF_ARROW      8    /* cost of an arrow that is clear, ... */
-#define MOST_OF_HEAD       1.2  /* ... of its head, ... */
+#define MOST_OF_HEAD       1.6  /* ... of its head, ... */
 #define MOST_OF_DOT        0.5  /* ... and of its dot */
 
 /* Finds which arrows the graph gives, too.  Where another choice is as good, it is unclear even so. */
@@ -117,12 +121,14 @@ is_any_seen (const CeldClearness *r, size_t i)
 static double
 margin_needed (const CeldClearness *r, size_t i)
 {
-  int doubts = (r->paint.seen[i] < CELD_LEAST_OWN) + celd_clear_may_pass (r, i) + celd_chosen_is_on_another (r->s, i);
+  int    doubts = (r->paint.seen[i] < CELD_LEAST_OWN) + celd_chosen_is_on_another (r->s, i);
+  bool   pass = celd_clear_may_pass (r, i);
+  double more = doubts * DOUBT_MARGIN + (pass ? r->s->style == CELD_ARROW_HEAD ? MAY_PASS_MARGIN : DOUBT_MARGIN : 0);
 
   if (!is_any_seen (r, i))
     return INFINITY;
-  if (doubts)
-    return CLEAR_MARGIN + doubts * DOUBT_MARGIN;
+  if (more > 0)
+    return CLEAR_MARGIN + more;
   return r->s->style == CELD_ARROW_DOT ? DOT_MARGIN : is_in_crowd (r, i) ? CROWD_MARGIN : CLEAR_MARGIN;
 }
 
@@ -183,12 +189,14 @@ why_unclear (const CeldClearness *r, size_t i)
     return CELD_REASON_MEETING;
   if (r->agreed[i])
     return is_explained (r, i) && !celd_chosen_is_on_another (s, i) ? CELD_REASON_NONE : CELD_REASON_MEETING;
-  if (shaft->length < SHORTEST * s->width)
+  if (shaft->length < SHORTEST * s->width && (dot || r->margin[i] < SHORT_MARGIN))
     return CELD_REASON_SHORT;
   if (o->mark_cost > (dot ? MOST_OF_DOT : MOST_OF_HEAD))
     return CELD_REASON_ALIKE;
   if (o->cost > MOST_OF_ARROW || s->passed[o->shaft] || celd_chosen_passes_end (s, i) || !is_explained (r, i) ||
-      (dot ? celd_rest_round (r->s, shaft) > DOT_ROUND_REST : celd_rest_near (r->s, tail) > TAIL_MOST_REST))
+      (!dot && celd_rest_near (r->s, tail) > TAIL_MOST_REST) ||
+      ((dot || r->margin[i] < ROUND_MARGIN) &&
+       celd_rest_round (r->s, shaft) > (dot ? DOT_ROUND_REST : HEAD_ROUND_REST)))
     return CELD_REASON_MEETING;
   if (r->margin[i] < margin_needed (r, i))
     return r->paint.seen[i] < CELD_LEAST_OWN ? CELD_REASON_ALIKE : CELD_REASON_MEETING;

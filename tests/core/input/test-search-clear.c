@@ -102,11 +102,87 @@ bent_at_a_crossing (void)
     }
 }
 
+/* Four that share an end, two of them short or with small heads: how many are read, and no other. */
+static int
+read_four (double length, double size, bool open)
+{
+  uint32_t state = 83;
+  int      right = 0;
+
+  for (int i = 0; i < 20; i++)
+    {
+      double w = random_between (&state, 4, 6), start = random_between (&state, 0, 6.28);
+      Arrow  a[4];
+
+      for (int k = 0; k < 4; k++)
+        {
+          double angle = start + k * 1.5708 + random_between (&state, -0.3, 0.3), far = (k < 2 ? length : 16) * w;
+          Point  middle = { SIZE / 2., SIZE / 2. }, other = { middle.x + far * cos (angle), middle.y + far * sin (angle) };
+
+          a[k] = arrow_at (k % 2 ? other : middle, angle + k % 2 * 3.14159265, far, w, 0.1, 0,
+                           open && i % 2 ? OPEN : FILLED, (k < 2 ? size : 3.8) * w);
+        }
+      right += read_green (a, 4, CELD_ARROW_HEAD);
+    }
+  return right;
+}
+
+static void
+short_ones (void)
+{
+  CHECK (read_four (6.4, 3.8, true) >= 0.7 * 80);
+}
+
+static void
+small_heads (void)
+{
+  CHECK (read_four (16, 2.8, false) >= 0.94 * 80);
+}
+
+/* A line with half a head on its way, which nothing explains: it may be two. */
+static void
+half_a_head_on_the_way (void)
+{
+  uint32_t state = 101;
+  int      right = 0;
+
+  for (int i = 0; i < 20; i++)
+    {
+      double    w = random_between (&state, 4, 5), angle = random_between (&state, 0, 6.28), size = 2.4 * w;
+      Point     middle = { SIZE / 2., SIZE / 2. };
+      Point     from = { middle.x - 13 * w * cos (angle), middle.y - 13 * w * sin (angle) };
+      CeldPaint paint = blank (SIZE, SIZE);
+      Arrow     a = arrow_at (from, angle, 26 * w, w, 0.1, 0, FILLED, 3.8 * w);
+      Arrow     half = { .n = 2, .width = 1, .last_width = 1, .alpha = 1, .last_alpha = 1, .head = FILLED, .size = size };
+      Answer    answer;
+
+      for (int k = 0; k < 2; k++)
+        {
+          Arrow other = arrow_at (from, angle + (k ? -1.2 : 1.2), 14 * w, w, 0.1, 0, FILLED, 3.8 * w);
+
+          half.barb[k] = (Point) { middle.x - size * cos (angle - 0.55 * k), middle.y - size * sin (angle - 0.55 * k) };
+          draw_arrow (&paint, &other, GREEN);
+        }
+      half.point[0] = half.tip = middle;
+      half.point[1] = half.barb[0];
+      draw_arrow (&paint, &a, GREEN);
+      draw_arrow (&paint, &half, GREEN);
+      answer = read_paint (&paint, CELD_ARROW_HEAD);
+      right += is_read (&answer, &a, CELD_ARROW_HEAD);
+      forget (&answer);
+      free (paint.data);
+    }
+  CHECK (right < 19);
+}
+
 int
 main (void)
 {
   RUN (dots_on_the_way);
   RUN (a_ring_of_dots);
   RUN (bent_at_a_crossing);
+  RUN (short_ones);
+  RUN (small_heads);
+  RUN (half_a_head_on_the_way);
   return DONE;
 }
