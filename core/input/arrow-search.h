@@ -21,8 +21,10 @@
 #define CELD_ONE_PLACE   2   /* widths between ends of chosen arrows that are at one place, at most; chosen */
 
 /* A line inside the paint from one place to another.  cost: for how it bends and for paint that is narrow; bow: how far
- * it is from its chord at most, by the length of that. */
-typedef struct { size_t place[2]; CeldPoint *at; size_t n; double length, cost, bow; } CeldShaft;
+ * it is from its chord at most, by the length of that; whole: the shaft that is divided if this is a part of one. */
+typedef struct { size_t place[2]; CeldPoint *at; size_t n; double length, cost, bow; size_t whole; } CeldShaft;
+
+#define CELD_NO_SHAFT SIZE_MAX
 
 /* Cells of paint. */
 typedef struct { uint32_t *cell; size_t n; } CeldPaintPiece;
@@ -54,6 +56,7 @@ typedef struct
 
   CeldPoint            *place;   /* where arrows may begin or end */
   size_t                n_places, place_capacity;
+  size_t                n_undivided; /* of the places: behind those are divisions of lines with two heads */
   CeldShaft            *shaft;
   size_t                n_shafts, shaft_capacity;
 
@@ -211,6 +214,20 @@ CeldStatus celd_search_cells_new (CeldArrowSearch *search);
 
 /* Makes the options of all shafts. */
 CeldStatus celd_search_options_new (CeldArrowSearch *search);
+
+/* Makes the piece of paint that a shaft explains. */
+CeldStatus celd_search_shaft_piece (CeldArrowSearch *search, const CeldShaft *shaft, size_t *piece);
+
+/* Adds an option, whose cost is found. */
+CeldStatus celd_search_option_add (CeldArrowSearch *search, CeldArrowOption option);
+
+/* Lists the pieces of each cell, when all options are there; all of them are bare. */
+CeldStatus celd_search_pieces_index (CeldArrowSearch *search);
+
+/* ------------------------------------------------------------------ search-divisions.c */
+
+/* Adds the places where lines with a head at either end are divided, and the shafts and options of both parts. */
+CeldStatus celd_search_divisions_add (CeldArrowSearch *search);
 
 /* ------------------------------------------------------------------ search-choice.c */
 

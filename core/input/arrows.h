@@ -29,6 +29,7 @@
  *   search-shafts.c      lines inside the paint between such places
  *   search-heads.c       heads and dots that fit there
  *   search-cover.c       the paint that each such arrow explains
+ *   search-divisions.c   where lines with a head at either end are two arrows
  *   search-choice.c      what a choice of arrows costs
  *   search-moves.c       the choice that costs least
  *   search-margins.c     how much better its arrows are than others

@@ -1,9 +1,9 @@
 /* Reads arrows with heads or dots that share ends: the choice of shafts and heads that explains their paint best.
  *
  * Places where arrows may begin or end (search-places.c) are joined by shafts inside the paint (search-shafts.c),
- * each with heads that fit at either end (search-heads.c).  Of these arrows those are chosen that together leave least
- * paint unexplained (search-cover.c, search-choice.c, search-moves.c).  Of those the clear ones are read
- * (search-clear.c).
+ * each with heads that fit at either end (search-heads.c); a line with two heads may be two arrows that begin on it
+ * (search-divisions.c).  Of these arrows those are chosen that together leave least paint unexplained
+ * (search-cover.c, search-choice.c, search-moves.c).  Of those the clear ones are read (search-clear.c).
  *
  * Cost: for a page of 1000 x 1000 pixels with 20 arrows a fraction of a second.
  *
@@ -83,6 +83,10 @@ find_choice (CeldArrowSearch *s, double *margin)
 {
   CeldStatus status = celd_search_options_new (s);
 
+  if (status == CELD_OK && s->style == CELD_ARROW_HEAD)
+    status = celd_search_divisions_add (s);
+  if (status == CELD_OK)
+    status = celd_search_pieces_index (s);
   if (status == CELD_OK)
     status = celd_search_choice_new (s);
   if (status == CELD_OK)

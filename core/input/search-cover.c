@@ -195,6 +195,16 @@ shaft_piece (Gather *g, const CeldShaft *shaft, size_t *number)
   return piece_from (g, number);
 }
 
+CeldStatus
+celd_search_shaft_piece (CeldArrowSearch *s, const CeldShaft *shaft, size_t *piece)
+{
+  Gather     g = { .s = s, .cell = celd_alloc (celd_search_cells (s), sizeof *g.cell), .levels = 1 };
+  CeldStatus status = g.cell ? shaft_piece (&g, shaft, piece) : CELD_NO_MEMORY;
+
+  celd_free (g.cell);
+  return status;
+}
+
 static void
 gather_mark (Gather *g, const CeldHeadOutline *head, CeldPoint way)
 {
@@ -221,9 +231,8 @@ shaft_cost (const CeldShaft *shaft)
   return ARROW_COST + SHAFT_COST * shaft->cost + BOW_COST * bow * bow;
 }
 
-/* Adds an option, whose cost is found. */
-static CeldStatus
-add_option (CeldArrowSearch *s, CeldArrowOption option)
+CeldStatus
+celd_search_option_add (CeldArrowSearch *s, CeldArrowOption option)
 {
   option.cost = shaft_cost (&s->shaft[option.shaft]) + option.mark_cost;
   return celd_append (s->option, s->n_options, s->option_capacity, option);
@@ -254,7 +263,7 @@ add_heads_at (Gather *g, size_t k, int end, CeldOutlineKind kind, size_t body)
       gather_mark (g, &head[i], way);
       status = piece_from (g, &mark);
       if (status == CELD_OK)
-        status = add_option (s, (CeldArrowOption) { .shaft = k, .end = end, .filled = filled, .mark_cost = head[i].cost,
+        status = celd_search_option_add (s, (CeldArrowOption) { .shaft = k, .end = end, .filled = filled, .mark_cost = head[i].cost,
                                                     .body = body, .mark = mark });
     }
   return status;
@@ -297,7 +306,7 @@ add_dots (Gather *g, double *cost)
         {
           size_t place = s->shaft[k].place[end];
 
-          status = add_option (s, (CeldArrowOption) { .shaft = k, .end = end, .mark_cost = cost[place], .body = body,
+          status = celd_search_option_add (s, (CeldArrowOption) { .shaft = k, .end = end, .mark_cost = cost[place], .body = body,
                                                     .mark = place });
         }
     }
@@ -342,15 +351,14 @@ add_profiles (Gather *g, size_t k, size_t nothing)
       gather_profile (g, &s->shaft[k], sample, n, end);
       status = piece_from (g, &option.body);
       if (status == CELD_OK)
-        status = add_option (s, option);
+        status = celd_search_option_add (s, option);
     }
   celd_free (sample);
   return status;
 }
 
-/* Lists the pieces of each cell; all of them are bare. */
-static CeldStatus
-index_pieces (CeldArrowSearch *s)
+CeldStatus
+celd_search_pieces_index (CeldArrowSearch *s)
 {
   size_t n = celd_search_cells (s), all = 0;
 
@@ -394,8 +402,6 @@ celd_search_options_new (CeldArrowSearch *s)
     status = piece_from (&g, &nothing);
   for (size_t k = 0; k < s->n_shafts && status == CELD_OK && celd_search_has_profiles (s); k++)
     status = add_profiles (&g, k, nothing);
-  if (status == CELD_OK)
-    status = index_pieces (s);
   celd_free (g.cell);
   celd_free (g.own);
   celd_free (cost);

@@ -204,7 +204,7 @@ improve_all (CeldArrowSearch *s, const CeldArrowChoice *list, const bool *tried)
       if ((tried[i] || tried[k]) && s->chosen[list->item[i]] && s->chosen[list->item[k]] &&
           touch (s, list->item[i], list->item[k]))
         improve_two (s, list->item[i], list->item[k]);
-  for (size_t p = 0; p < s->n_places; p++)
+  for (size_t p = 0; p < s->n_undivided; p++)
     if (is_near_tried (s, p, list, tried))
       improve_place (s, p);
 }
@@ -256,7 +256,7 @@ begin_divided (CeldArrowSearch *s)
 
   if (apart && far)
     {
-      for (size_t p = 0; p < s->n_places; p++)
+      for (size_t p = 0; p < s->n_undivided; p++)
         {
           apart[p] = true;
           for (size_t q = 0; q < p; q++)
@@ -268,7 +268,7 @@ begin_divided (CeldArrowSearch *s)
           const CeldShaft *shaft = &s->shaft[s->option[k].shaft];
 
           far[k] = !apart[shaft->place[0]] || !apart[shaft->place[1]];
-          for (size_t p = 0; p < s->n_places; p++)
+          for (size_t p = 0; p < s->n_undivided; p++)
             far[k] |= apart[p] && celd_shaft_passes (s, s->option[k].shaft, p);
           s->banned[k] = (uint16_t) (s->banned[k] + far[k]);
         }
@@ -311,14 +311,13 @@ ban_heads (CeldArrowSearch *s, bool filled, bool on)
       s->banned[k] = (uint16_t) (s->banned[k] + (on ? 1 : -1));
 }
 
-CeldStatus
-celd_search_best (CeldArrowSearch *s)
+/* Finds the best choice of arrows with heads of one kind. */
+static CeldStatus
+find_best_heads (CeldArrowSearch *s)
 {
   CeldArrowChoice nothing = s->choice, open;
   CeldStatus      status;
 
-  if (s->style != CELD_ARROW_HEAD)
-    return find_best (s);
   ban_heads (s, true, true);
   status = find_best (s);
   if (status != CELD_OK)
@@ -334,4 +333,47 @@ celd_search_best (CeldArrowSearch *s)
   ban_heads (s, false, false);
   ban_heads (s, true, true);
   return CELD_OK;
+}
+
+/* Bans the parts of divided shafts, or lets those be chosen whose whole is. */
+static void
+ban_parts (CeldArrowSearch *s, bool on)
+{
+  for (size_t k = 0; k < s->n_options; k++)
+    {
+      size_t whole = s->shaft[s->option[k].shaft].whole;
+
+      if (whole != CELD_NO_SHAFT && (on || s->uses[whole]))
+        s->banned[k] = (uint16_t) (s->banned[k] + (on ? 1 : -1));
+    }
+}
+
+/* Divides chosen shafts where that costs less. */
+static void
+divide_chosen (CeldArrowSearch *s)
+{
+  CeldArrowChoice whole = s->choice;
+
+  ban_parts (s, false);
+  for (size_t i = 0; i < whole.n; i++)
+    for (size_t k = 0; k < s->n_shafts && s->chosen[whole.item[i]]; k++)
+      if (s->shaft[k].whole == s->option[whole.item[i]].shaft)
+        {
+          celd_search_improve_near (s, whole.item[i]);
+          break;
+        }
+}
+
+CeldStatus
+celd_search_best (CeldArrowSearch *s)
+{
+  CeldStatus status;
+
+  if (s->style != CELD_ARROW_HEAD)
+    return find_best (s);
+  ban_parts (s, true);
+  status = find_best_heads (s);
+  if (status == CELD_OK)
+    divide_chosen (s);
+  return status;
 }

@@ -343,6 +343,7 @@ celd_search_places_find (CeldArrowSearch *search)
     status = CELD_NO_MEMORY;
   if (status == CELD_OK)
     status = find_places (&b);
+  search->n_undivided = search->n_places;
   celd_free (b.degree);
   celd_free (b.arm);
   celd_stroke_graph_clear (&b.raw);

@@ -181,7 +181,9 @@ follow (Chord *c)
 static CeldStatus
 add_shaft (CeldArrowSearch *s, const Chord *c, size_t a, size_t b)
 {
-  CeldShaft  shaft = { .place = { a, b }, .n = (size_t) c->steps + 1, .length = c->length };
+  CeldShaft  shaft = {
+    .place = { a, b }, .n = (size_t) c->steps + 1, .length = c->length, .whole = CELD_NO_SHAFT,
+  };
   int        unit = c->low, way = 0;
   CeldStatus status;
 

@@ -97,7 +97,7 @@ may_go_on (const CeldClearness *r, size_t place, size_t i, int a, double turn)
         other  = celd_shaft_way (shaft, end, WAY_FROM * s->width);
         cosine = way.x * other.x + way.y * other.y;
         if (cosine < -cos (turn) &&
-            !(two && (s->arrows_at[place] > 2 || cosine > -cos (SHOWN_TURN))))
+            !(two && (s->arrows_at[place] > 2 || place >= s->n_undivided || cosine > -cos (SHOWN_TURN))))
           return true;
       }
   return false;
