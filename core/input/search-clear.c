@@ -1,10 +1,10 @@
 /* Which of the chosen arrows are clear.
  *
  * An arrow is clear if every other choice that lacks it is worse by a margin (search-margins.c), the paint round it is
- * explained, and something shows that it ends where it does (search-shown.c).  How large a margin is asked for depends on what else
- * speaks against the arrow, or for it: a head that others hide, a line that may go on, others that end where it does.
- * Where the graph of the lines gives the same arrow (joined-heads.c), hardly any margin is needed: both are seldom
- * wrong in the same way.  Arrows that fade or taper have no heads that others hide, so that less is asked for.
+ * explained, and something shows that it ends where it does (search-shown.c).  How large a margin is asked for depends
+ * on what else speaks against the arrow, or for it: a head that others hide, a line that may go on, others that end
+ * where it does.  Where the graph of the lines gives the same arrow (joined-heads.c), hardly any margin is needed: both
+ * are seldom wrong in the same way.  Arrows that fade or taper have no heads that others hide, so that less is asked for.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
