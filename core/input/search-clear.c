@@ -208,8 +208,8 @@ CeldStatus
 celd_search_clear_find (CeldArrowSearch *search, const CeldJoinedLines *lines, CeldLineArrow *other,
                         const double *margin, CeldArrowReason *unclear)
 {
-  CeldClearness  r = { .s = search, .lines = lines, .margin = margin };
-  CeldStatus status = celd_choice_paint_measure (search, &r.paint);
+  CeldClearness r = { .s = search, .lines = lines, .margin = margin };
+  CeldStatus    status = celd_choice_paint_measure (search, &r.paint);
 
   if (status != CELD_OK)
     return status;

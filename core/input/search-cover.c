@@ -263,8 +263,9 @@ add_heads_at (Gather *g, size_t k, int end, CeldOutlineKind kind, size_t body)
       gather_mark (g, &head[i], way);
       status = piece_from (g, &mark);
       if (status == CELD_OK)
-        status = celd_search_option_add (s, (CeldArrowOption) { .shaft = k, .end = end, .filled = filled, .mark_cost = head[i].cost,
-                                                    .body = body, .mark = mark });
+        status = celd_search_option_add (s, (CeldArrowOption) { .shaft = k, .end = end, .filled = filled,
+                                                                .mark_cost = head[i].cost, .body = body,
+                                                                .mark = mark });
     }
   return status;
 }
@@ -306,8 +307,8 @@ add_dots (Gather *g, double *cost)
         {
           size_t place = s->shaft[k].place[end];
 
-          status = celd_search_option_add (s, (CeldArrowOption) { .shaft = k, .end = end, .mark_cost = cost[place], .body = body,
-                                                    .mark = place });
+          status = celd_search_option_add (s, (CeldArrowOption) { .shaft = k, .end = end, .mark_cost = cost[place],
+                                                                  .body = body, .mark = place });
         }
     }
   return status;

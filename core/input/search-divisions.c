@@ -27,7 +27,7 @@
 #define MOST_FIT      52   /* slices of a fit, at most */
 #define USUAL_KINK    0.15 /* radians of a kink, ... */
 #define USUAL_WAIST   0.07 /* ... and depth of a waist: what stands out by this ... */
-#define PLAIN_DIVISION 7   /* ... counts 1 as a square, and is plain from this sum on, ... */
+#define PLAIN_DIVISION 7    /* ... counts 1 as a square, and is plain from this sum on, ... */
 #define LESS_PLAIN    0.5  /* ... unless so much of it is found elsewhere, ... */
 #define ELSEWHERE     1.5  /* ... that is so far away: thin beginnings may be long */
 #define WAIST_REACH   1    /* of a waist to either side */

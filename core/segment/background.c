@@ -5,11 +5,13 @@
  * a component, which is many enclosures behind gaps, that must be a fair share of all paint: the mean of its labels.  A
  * stroke that is at home nowhere but has half of its paint along the frame runs over hatching, and counts in every
  * enclosure along the frame.  A stroke in a figure whose outline has a gap as wide as the paper beside it lies in one
- * enclosure with the page.  So if no label owns a quarter of the frame in rooms, which bridges close, an enclosure that
- * has most of the frame has no owner where its room has none: the page is not painted.  Enclosures along the frame without an owner get seeds of the main owner.  If no label
- * owns a quarter of the frame or runs over hatching, and more of the frame has no owner, they get a transparent label
- * of their own: parts of a figure that are cut off by the frame own a little of it, but are not the background.  Nor is
- * a label that the artist's relations put in front of something: in a close-up a figure may own most of the frame.
+ * enclosure with the page.  So if no label owns a quarter of the frame in rooms, which bridges close, the page is not
+ * painted: an enclosure that has a quarter of the frame has no owner where its room has none.
+ *
+ * Enclosures along the frame without an owner get seeds of the main owner.  If no label owns a quarter of the frame or
+ * runs over hatching, and more of the frame has no owner, they get a transparent label of their own: parts of a figure
+ * that are cut off by the frame own a little of it, but are not the background.  Nor is a label that the artist's
+ * relations put in front of something: in a close-up a figure may own most of the frame.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -38,7 +40,7 @@ typedef struct
   size_t   *owned;    /* pixels of the frame that label l owns; owned[0]: without an owner */
   bool     *across;   /* has label l a stroke along the frame that is at home nowhere? */
   bool     *in_front; /* is label l in front of something? */
-  Parts     enclosures, rooms;
+  Parts     enclosures, rooms; /* rooms: components with bridges as lines */
   bool      painted;  /* does a label own the main part in rooms? */
 } Frame;
 
@@ -363,9 +365,8 @@ choose (CeldSegmentTask *task, const Frame *frame, uint32_t *label)
 }
 
 /* Adds the background's seeds in enclosures along the frame without an owner, and removes spills there, but for those
- * in rooms with an owner if the page is not painted.  Hard strokes
- * stay: they may lie where a bridge covers the paper.  If the background is painted, these enclosures are remembered:
- * the artist may have forgotten them. */
+ * in rooms with an owner if the page is not painted.  Hard strokes stay: they may lie where a bridge covers the paper.
+ * If the background is painted, these enclosures are remembered: the artist may have forgotten them. */
 static CeldStatus
 seed (CeldSegmentTask *task, const CeldStrokes *strokes, Frame *frame, uint32_t label)
 {
