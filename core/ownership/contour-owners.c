@@ -7,7 +7,8 @@
  * the paper's label touches that region's outline; else the nearer label.
  *
  * Where an outline ends, its owner has the tip beyond only if the region's paper has a corner there: both sides of the
- * outline meet behind it.  Where the paper goes on straight, a line of another owner leaves the outline.
+ * outline meet behind it.  Where the paper goes on straight, a line of another owner leaves the outline; but not inside
+ * one region, if its pen is thinner: there the outline runs out into a solid tip.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -115,12 +116,22 @@ fits_both (const CeldContourPens *pens, const CeldEdgePoint *p, const CeldEdgePe
   return front && p->thickness <= MAX_SLANT * pens->typical_width[front - 1] + width + THICKNESS_TOLERANCE;
 }
 
-/* Does the outline of a's owner end between neighbours a and b, so that at b it would be its tip?  Not at the picture's
- * frame. */
+/* Is the ink inside a region too thick to be a line of its own? */
 static bool
-leaves_outline (const CeldContourPens *pens, const CeldEdgePen *a, const CeldEdgePen *b)
+is_solid_inside (const CeldContourPens *pens, const CeldEdgePoint *p, const CeldEdgePen *pen)
 {
-  return celd_pen_front (pens, a) == a->owner && !is_behind_front (pens, b, a->owner) && b->near && b->far;
+  float own = pens->typical_width[pen->near - 1];
+
+  return pen->near == pen->far && (own <= 0 || p->thickness > PLAIN_THICKNESS * own + THICKNESS_TOLERANCE);
+}
+
+/* Does the outline of a's owner end between neighbours a and b, so that the line at b would be its tip, or may be that of
+ * another owner?  Not at the picture's frame. */
+static bool
+leaves_outline (const CeldContourPens *pens, const CeldEdgePoint *p, const CeldEdgePen *a, const CeldEdgePen *b)
+{
+  return celd_pen_front (pens, a) == a->owner && !is_behind_front (pens, b, a->owner) && b->near && b->far &&
+         !is_solid_inside (pens, p, b);
 }
 
 /* Does the other side of the ink turn sharply just before b, as it does where both sides of an outline meet? */
@@ -149,7 +160,7 @@ takes_owner (const CeldContourPens *pens, const CeldEdgeLoop *loop, size_t a, si
     return false;
   if (spread == FROM_INSIDE)
     return pen[a].owner == pen[b].near && fits_both (pens, &point[b], &pen[a], &pen[b]);
-  if (leaves_outline (pens, &pen[a], &pen[b]) && !faces_corner (loop, point, a, b))
+  if (leaves_outline (pens, &point[b], &pen[a], &pen[b]) && !faces_corner (loop, point, a, b))
     return false;
   return accepts_owner (pens, &point[b], &pen[b], &pen[a], distance);
 }

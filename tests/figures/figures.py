@@ -493,6 +493,22 @@ def cover_on_thicker():
     return cover(12)
 
 
+def drop():
+    """A sheet drawn in a thick pen that runs out into a solid tip, as a drop or the end of a leaf does."""
+    f = Figure()
+    x, y, paper, pen, tip = 80, 100, 40, 20, 110
+    f.shape([(x + paper * math.cos(t), y + paper * math.sin(t)) for t in np.linspace(0, 2 * math.pi, 60)], pen)
+    edge = paper + pen / 2
+    tangent = math.acos(edge / tip)
+    sides = [(x + edge * math.cos(t), y + edge * math.sin(t)) for t in (tangent, -tangent)]
+    solid = [sides[0], (x + tip, y), sides[1], (x + paper, y)]
+    f.ink.polygon([(px * SCALE, py * SCALE) for px, py in solid], 0)
+    f.stroke('scribbles', [(65, 90), (95, 110)], A)
+    f.stroke('scribbles', [(10, 15), (230, 15)], C)
+    f.relations = '#dc3c3c > #f0b428'
+    return f
+
+
 def soft_on_white():
     """Strokes of a soft brush of half opacity, flattened on white."""
     f = Figure()
@@ -511,7 +527,7 @@ FIGURES = [two_arrows, thick, contours, two_characters, frame, limbs, cycle, bro
            gap_beside_bay, hairline_gaps, stubs, ring_round_bar, bay_beside_stub, bay_below_gap, rubbed_out_corner,
            severed, close_up, nearly_touches_frame, forgotten, cut_off, unpainted_page, gap_on_unpainted_page,
            stopped_near, stopped_farther, stopped_far, open_bay, vein, notch, hairline, stroke_on_contour,
-           pencil_on_smooth_paper, pencil_on_rough_paper, cover_on_thick, cover_on_thicker, soft_on_white]
+           pencil_on_smooth_paper, pencil_on_rough_paper, cover_on_thick, cover_on_thicker, drop, soft_on_white]
 
 
 if __name__ == '__main__':

@@ -283,11 +283,16 @@ def cover(run):
     yield 'each sheet has its own line', all(right[ink & (r.owner == k)].mean() >= 0.95 for k in (1, 2))
 
 
+def drop(run):
+    r = run()
+    yield 'all of the ink belongs to the sheet', (r.levels[r.drawing < 64] == r.level(80, 100)).mean() > 0.99
+
+
 OUTCOMES = [two_arrows, thick, contours, two_characters, frame, limbs, cycle, broken, pinched, pinched,
             gap_beside_bay, hairline_gaps, stubs, ring_round_bar, bay_beside_stub, bay_below_gap, rubbed_out_corner,
             severed, close_up, nearly_touches_frame, forgotten, cut_off, unpainted_page, gap_on_unpainted_page,
             stopped_short, stopped_short, stopped_short, no_room, no_room, no_room, hairline, stroke_on_contour, hairline,
-            hairline, cover, cover, soft_on_white]
+            hairline, cover, cover, drop, soft_on_white]
 
 
 def main():
