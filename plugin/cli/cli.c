@@ -173,7 +173,7 @@ main (int argc, char **argv)
   code = run_words (argc, argv);
   if (code == CLI_DONE && (fflush (stdout) || ferror (stdout)))
     {
-      cli_say ("Cannot write standard output: %s.", g_strerror (errno));
+      cli_say ("Cannot write standard output: %s.", cli_file_reason (errno));
       code = CLI_FAILED;
     }
   return code;

@@ -48,7 +48,11 @@ typedef enum
 } CliSteps;
 
 /* Where "-" stands for standard input or output; see streams.c. */
-typedef struct { char *folder, *output, *reader, *writer; } CliStreams;
+typedef struct
+{
+  char *folder, *output, *reader, *writer;
+  bool  failed; /* standard input could not be read, or not kept: no wrong usage */
+} CliStreams;
 
 /* The values of all options.  Names of files, and texts, that are not given are NULL. */
 typedef struct
@@ -320,7 +324,8 @@ void cli_warn_if_flat   (const char *path, const CeldPlane *levels);  /* that al
 /* All bytes of a file, at most so many, with a NUL behind them; NULL with a message, unless `quiet`.  Free with
  * g_free. */
 char *cli_file_read (const char *path, gsize most, bool quiet, gsize *length);
-/* Why a file or folder cannot be read, mostly in words of the system. */
+/* What an errno says of a file, mostly in words of the system; and why a file or folder cannot be read. */
+const char *cli_file_reason (int code);
 const char *cli_file_problem (const char *path);
 
 /* ------------------------------------------------------------------ text.c, texts that are given */

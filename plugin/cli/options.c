@@ -281,6 +281,8 @@ cli_options_parse (const CliCommand *command, int argc, char **argv, CliOptions 
 
       return later || cli_outputs_check_places (options) ? CLI_DONE : CLI_FAILED;
     }
+  if (options->streams.failed)
+    return CLI_FAILED;
   fprintf (stderr, "'celdepth %s --help' shows its usage.\n", command->name);
   return CLI_USAGE;
 }

@@ -10,11 +10,11 @@
 
 #define START 65536 /* bytes for a file whose size is not known, to begin with (chosen) */
 
-/* The system calls it a directory, where pictures are called a folder. */
-static const char *
-reason_of (int code)
+/* The system calls it a directory, where pictures are called a folder, and a file that is not open a bad descriptor. */
+const char *
+cli_file_reason (int code)
 {
-  return code == EISDIR ? "it is a folder" : g_strerror (code);
+  return code == EISDIR ? "it is a folder" : code == EBADF ? "it is closed" : g_strerror (code);
 }
 
 /* Reads all bytes, but no more than `most` and one that says that there are too many: a device may have no end.  NULL,
@@ -64,7 +64,7 @@ cli_file_read (const char *path, gsize most, bool quiet, gsize *length)
   if (!quiet && bytes)
     cli_say ("Cannot read \"%s\": it is larger than %" G_GSIZE_FORMAT " MiB.", path, most >> 20);
   else if (!quiet)
-    cli_say ("Cannot read \"%s\": %s.", path, reason_of (reason));
+    cli_say ("Cannot read \"%s\": %s.", path, cli_file_reason (reason));
   g_free (bytes);
   return NULL;
 }
@@ -78,5 +78,5 @@ cli_file_problem (const char *path)
 
   if (file)
     fclose (file);
-  return reason_of (code);
+  return cli_file_reason (code);
 }

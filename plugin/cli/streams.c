@@ -47,6 +47,7 @@ make_folder (CliStreams *streams)
         {
           cli_say ("Cannot make a folder in \"%s\": %s.", g_get_tmp_dir (), g_strerror (errno));
           g_free (name);
+          streams->failed = true;
         }
     }
   cli_say_without (streams->folder);
@@ -97,10 +98,11 @@ cli_stream_input (CliStreams *streams, const char *what, char **name)
   file = g_fopen (path, "wb");
   good = file && keep_input (file, &ending);
   if (!good)
-    cli_say ("Cannot read standard input: %s.", errno == EFBIG ? "it is too large" : g_strerror (errno));
+    cli_say ("Cannot read standard input: %s.", errno == EFBIG ? "it is too large" : cli_file_reason (errno));
   good = file && !fclose (file) && good;
   with_ending = g_strconcat (path, ending, NULL);
   good = good && !g_rename (path, with_ending);
+  streams->failed = !good;
   g_free (path);
   g_free (*name);
   *name = with_ending;
@@ -141,7 +143,7 @@ cli_streams_write (CliStreams *streams)
   if (file)
     fclose (file);
   g_free (unfinished);
-  return good || cli_error ("Cannot write standard output: %s.", g_strerror (errno));
+  return good || cli_error ("Cannot write standard output: %s.", cli_file_reason (errno));
 }
 
 void

@@ -220,13 +220,15 @@ class Usage(Test):
 
     def test_closed_standard_files(self):
         """They are not mistaken for other files that get their numbers."""
-        for words, code, said in (('popup - --depth d.png <&-', 2, 'Cannot read standard input: Bad file descriptor'),
+        for words, code, said in (('popup - --depth d.png <&-', 1, 'Cannot read standard input: it is closed.'),
+                                  ('popup - --depth d.png </', 1, 'Cannot read standard input: it is a folder.'),
                                   ('popup drawing.png --scribbles scribbles.png --depth - >&-', 1,
-                                   'Cannot write standard output')):
+                                   'Cannot write standard output: it is closed.')):
             done = subprocess.run(['bash', '-c', f'{COMMAND} {words}'], cwd=self.folder, capture_output=True, text=True,
                                   timeout=60, check=False)
             self.assertEqual(done.returncode, code, words)
             self.assertIn(said, done.stderr)
+            self.assertNotIn('shows its usage', done.stderr)
         for word in ('help', '--version', 'popup --help'):
             done = subprocess.run(['bash', '-c', f'{COMMAND} {word} >/dev/full'], capture_output=True, text=True,
                                   check=False)
