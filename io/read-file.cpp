@@ -205,8 +205,7 @@ open_decoded (const std::string &path, std::unique_ptr<Descriptor> descriptor)
     throw IoFailure ("its layers are compressed by ZIP, which cannot be read; save it with RLE or without compression, "
                      "or as ORA.");
   if (!file->input)
-    throw IoFailure ("it is damaged, or of a format that cannot be read. PNG, JPEG, TIFF, EXR, PSD, ORA, KRA, WebP, GIF "
-                     "and JPEG 2000 can be read; save XCF as ORA or PSD.");
+    throw IoFailure (unreadable_reason (path));
   // OpenImageIO does not find the way back in a WebP, not even from the search for a second picture.
   const int most = iequals (file->input->format_name (), "webp") ? 1 : std::numeric_limits<int>::max ();
   for (int i = 0; i < most && file->input->seek_subimage (i, 0); i++)

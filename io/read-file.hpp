@@ -1,6 +1,7 @@
 // Pictures in files, decoded in the reading process.
 //
 //   read-file.cpp     what OpenImageIO decodes
+//   other-kinds.cpp   what is said of files that cannot be read
 //   chunks.cpp        what OpenImageIO passes over in a WebP and a PNG
 //   psd-names.cpp     what OpenImageIO does not read of a PSD
 //   read-turned.cpp   pictures of a camera that was turned
@@ -77,6 +78,9 @@ std::vector<std::string> psd_layer_names (const std::string &path);
 
 // Whether a channel of a layer in a PSD is compressed by ZIP, which OpenImageIO does not know; false if the file is damaged.
 bool psd_has_zip (const std::string &path);
+
+// Why OpenImageIO cannot open a file, and what to do, by the kind of the file.
+std::string unreadable_reason (const std::string &path);
 
 // Throws if a canvas cannot have that size.
 void check_canvas (int64_t width, int64_t height);

@@ -994,6 +994,18 @@ class NoNumbers(Test):
 
 
 class BadInput(Test):
+    def test_kinds_that_cannot_be_read(self):
+        """What to do is said of each."""
+        for start, says in ((b'', 'it is empty.'), (b'gimp xcf v011\0', 'it is an XCF, which cannot be read. Save it as ORA'),
+                            (b'CSFCHUNK\0\0', 'it is a document of Clip Studio Paint, which cannot be read. Save it as PSD.'),
+                            (b'%PDF-1.7\n\xff', 'it is a PDF'), (b'\0\0\0\x18ftypheic\0\0', 'it is damaged, or a HEIC'),
+                            (b'<?xml version="1.0"?>\n<svg/>', 'it is an SVG'), (b'120,80 > 300,95\n', 'it is a text and no'),
+                            (b'120\0', 'it is damaged, or of a format that cannot be read. PNG,'),
+                            (b'\0\0\0\x18', 'it is damaged, or of a format')):
+            with open(self.path('page.png'), 'wb') as file:
+                file.write(start)
+            self.fails('popup', 'page.png', '--depth', 'd.png', naming='celdepth: Cannot read "page.png": ' + says)
+
     def test_missing_and_unreadable_files(self):
         os.mkdir(self.path('folder.png'))
         self.fails('popup', 'none.png', '--depth', 'd.png', naming='"none.png": there is no such file')
