@@ -304,8 +304,8 @@ bool cli_check_regions  (const char *path, const CeldLabels *regions, const Celd
 /* That regions are not the drawing; warns of those that have its lines, too. */
 bool cli_check_regions_of (const char *path, const CeldLabels *regions, const CeldPalette *palette, const char *drawing,
                            const CeldPlane *ink, bool quiet);
-/* Warns of contours that change nothing in the drawing; false if there is no memory. */
-bool cli_warn_of_vain_contours (const char *path, const CliLayers *layers, CeldInkMode mode);
+/* That contours have not the lines of the drawing, before they are drawn into it; warns of some that change nothing. */
+bool cli_check_contours (const char *path, const CliOptions *options, const CliLayers *layers);
 /* That levels or depth are no drawing, whichever. */
 bool cli_check_not_drawn (const char *path, const CeldPlane *levels);
 /* The same, and that they have not the lines of this drawing, by its ink or brightness; the second one only warns of

@@ -141,24 +141,28 @@ check_scribbles (const CliOptions *options, const CliLayers *layers, const CeldP
   return true;
 }
 
+/* A layer of strokes; data NULL: there is none. */
+static bool
+check_layer (const char *path, const CeldPaint *paint, const CeldPlane *ink)
+{
+  CeldLayerLines lines = CELD_LAYER_WITHOUT_LINES;
+
+  return (!paint->data || cli_check (celd_layer_lines (paint, ink, &lines))) &&
+         (lines == CELD_LAYER_WITHOUT_LINES ||
+          cli_error (_ ("\"%s\" has the lines of the drawing: give a layer with the strokes alone."), path));
+}
+
 bool
 cli_check_no_drawings (const CliOptions *options, const CliLayers *layers, const CeldPlane *ink)
 {
   const struct { const char *path; const CeldPaint *paint; } layer[] = {
-    { options->arrows, &layers->arrows }, { options->contours, &layers->contours },
-    { options->corrections, &layers->corrections }, { options->hidden, &layers->hidden },
+    { options->arrows, &layers->arrows }, { options->corrections, &layers->corrections },
+    { options->hidden, &layers->hidden },
   };
   bool good = check_scribbles (options, layers, ink);
 
   for (size_t i = 0; good && i < G_N_ELEMENTS (layer); i++)
-    {
-      CeldLayerLines lines = CELD_LAYER_WITHOUT_LINES;
-
-      good = !layer[i].paint->data || cli_check (celd_layer_lines (layer[i].paint, ink, &lines));
-      if (lines != CELD_LAYER_WITHOUT_LINES)
-        good = cli_error (_ ("\"%s\" has the lines of the drawing: give a layer with the strokes alone."),
-                          layer[i].path ? layer[i].path : options->input);
-    }
+    good = check_layer (layer[i].path ? layer[i].path : options->input, layer[i].paint, ink);
   return good;
 }
 
@@ -188,8 +192,21 @@ bake (const CliLayers *layers, CeldInkMode mode, CeldDrawing *copy, bool *change
   return good;
 }
 
-bool
-cli_warn_of_vain_contours (const char *path, const CliLayers *layers, CeldInkMode mode)
+/* Before contours are drawn into the drawing, which may hide its lines.  A page that has none can get some by them. */
+static bool
+check_contours (const char *path, const CliLayers *layers, CeldInkMode mode)
+{
+  CeldPlane ink = { 0 };
+  bool      good = cli_plane_new (layers->width, layers->height, &ink) &&
+                   cli_check (celd_ink (&layers->drawing, mode, NULL, &ink)) &&
+                   (!celd_ink_has_lines (&ink) || check_layer (path, &layers->contours, &ink));
+
+  g_free (ink.data);
+  return good;
+}
+
+static bool
+warn_if_vain (const char *path, const CliLayers *layers, CeldInkMode mode)
 {
   int         width = layers->drawing.luma.width, height = layers->drawing.luma.height;
   CeldDrawing copy = { 0 };
@@ -204,6 +221,13 @@ cli_warn_of_vain_contours (const char *path, const CliLayers *layers, CeldInkMod
   g_free (copy.luma.data);
   g_free (copy.alpha.data);
   return good;
+}
+
+bool
+cli_check_contours (const char *path, const CliOptions *options, const CliLayers *layers)
+{
+  return (options->settings.flats || check_contours (path, layers, options->settings.ink)) &&
+         (options->quiet || warn_if_vain (path, layers, options->settings.ink));
 }
 
 /* ------------------------------------------------------------------ no lines */

@@ -252,8 +252,8 @@ cli_layers_read (const char *input, const CliOptions *options, CliRoles wanted, 
     if (roles[i].role != CLI_SCRIBBLES && paint_of (layers, roles[i].role)->data)
       good = cli_check_strokes (path_of (options, roles[i].role) ? path_of (options, roles[i].role) : input,
                                 roles[i].name, paint_of (layers, roles[i].role));
-  if (good && layers->contours.data && layers->drawing.luma.data && !options->quiet)
-    good = cli_warn_of_vain_contours (options->contours ? options->contours : input, layers, options->settings.ink);
+  if (good && layers->contours.data && layers->drawing.luma.data)
+    good = cli_check_contours (options->contours ? options->contours : input, options, layers);
   return good;
 }
 

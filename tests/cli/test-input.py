@@ -586,6 +586,17 @@ class Nonsense(Test):
                              '--output', 'o.png', code=1)
         self.assertEqual((said.count('\n'), said[:54]), (1, 'celdepth: "strokes.png" has no handle that can be read'))
 
+    def test_contours_with_the_drawing(self):
+        """Lines that contours would hide; and one sentence alone."""
+        self.shade()
+        self.popup('--relations', RELATIONS, '--levels', 'levels.npy')
+        for name in ('coloured.png', 'grey.png'):
+            for words in (('segment', 'drawing.png', '--scribbles', 'scribbles.png', '--labels', 'l.png'),
+                          ('smooth', 'levels.npy', '--drawing', 'drawing.png', '--depth', 'd.png')):
+                said = self.celdepth(*words, '--contours', name, code=1)
+                self.assertEqual(said, f'celdepth: "{name}" has the lines of the drawing: give a layer with the strokes '
+                                       'alone.\n')
+
     def test_colours_or_a_photograph_as_levels(self):
         self.popup('--labels', 'labels.png', '--relations', RELATIONS)
         self.popup('--labels', 'labels.exr', '--relations', RELATIONS)
