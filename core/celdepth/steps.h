@@ -59,6 +59,13 @@ CELD_API CeldStatus celd_are_arrows (const CeldPaint *paint, const CeldHost *hos
  * the page. */
 CELD_API CeldStatus celd_may_be_drawing (const CeldPaint *scribbles, bool *may_be);
 
+/* Whether a picture is flat parts without lines: in grey on black, as levels and depth are, or as regions.  Pictures of
+ * less than three colours are neither. */
+typedef enum { CELD_PARTS_NONE, CELD_PARTS_COLOURED, CELD_PARTS_LEVELS } CeldFlatParts;
+CELD_API CeldFlatParts celd_flat_parts (const CeldPaint *paint);
+/* Whether such parts leave no page blank, so that they are no strokes. */
+CELD_API bool celd_is_painted_over (const CeldPaint *paint);
+
 /* Whether a layer has the lines of the drawing, by its ink, as the drawing itself has them, also shaded; and whether it
  * has colours beside them, be it a few thin strokes: as scribbles these can be meant.  Strokes in clear colours are no
  * lines. */

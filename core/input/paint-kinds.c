@@ -92,9 +92,8 @@ celd_are_scribbles (const CeldPaint *paint)
 
 /* ------------------------------------------------------------------ grey or coloured */
 
-/* The difference of the largest and the least channel. */
-static int
-hue_of (const uint8_t *p)
+int
+celd_hue_of (const uint8_t *p)
 {
   int most = p[0] > p[1] ? p[0] : p[1], least = p[0] < p[1] ? p[0] : p[1];
 
@@ -113,7 +112,7 @@ celd_is_grey (const CeldPaint *paint)
       if (CELD_RGBA (paint, x, y)[3])
         {
           painted = true;
-          if (hue_of (CELD_RGBA (paint, x, y)) > FAINT_HUE)
+          if (celd_hue_of (CELD_RGBA (paint, x, y)) > FAINT_HUE)
             return false;
         }
   return painted;
@@ -126,7 +125,7 @@ celd_paint_is_coloured (const CeldPaint *paint)
 
   for (int y = 0; y < paint->height; y++)
     for (int x = 0; x < paint->width; x++)
-      hued += CELD_RGBA (paint, x, y)[3] && hue_of (CELD_RGBA (paint, x, y)) > FAINT_HUE;
+      hued += CELD_RGBA (paint, x, y)[3] && celd_hue_of (CELD_RGBA (paint, x, y)) > FAINT_HUE;
   return 100 * hued > (size_t) paint->width * (size_t) paint->height;
 }
 
@@ -137,7 +136,7 @@ celd_paint_has_colours (const CeldPaint *paint)
 
   for (int y = 0; y < paint->height; y++)
     for (int x = 0; x < paint->width; x++)
-      clear += CELD_RGBA (paint, x, y)[3] >= 128 && hue_of (CELD_RGBA (paint, x, y)) >= CELD_CLEAR_HUE;
+      clear += CELD_RGBA (paint, x, y)[3] >= 128 && celd_hue_of (CELD_RGBA (paint, x, y)) >= CELD_CLEAR_HUE;
   return FEW_CLEAR * clear >= (size_t) paint->width * (size_t) paint->height;
 }
 
@@ -156,7 +155,7 @@ celd_is_coloured_strokes (const CeldPaint *paint)
         if (p[3] < 128 || (p[0] > WHITE && p[1] > WHITE && p[2] > WHITE))
           continue;
         painted++;
-        if (hue_of (p) < CELD_CLEAR_HUE)
+        if (celd_hue_of (p) < CELD_CLEAR_HUE)
           continue;
         clear++;
         of[(p[0] >= p[1]) + (p[1] >= p[2]) + 3 * (p[0] >= p[2])]++;

@@ -288,8 +288,9 @@ bool cli_check_different_files (const CliOptions *options);                  /* 
 bool cli_check_not_mixed_up    (const CliOptions *options, CliLayers *layers); /* the drawing and the scribbles */
 bool cli_check_lines           (const char *path, const CeldPlane *ink);     /* there is ink, and paper */
 bool cli_check_drawing         (const char *path, const CeldDrawing *drawing, bool quiet); /* no photograph */
-bool cli_check_scribbles       (const char *path, const CeldPaint *scribbles); /* no photograph, no arrows */
-bool cli_check_strokes         (const char *path, const char *role, const CeldPaint *paint); /* no photograph */
+bool cli_check_parts           (const char *path, const CeldPaint *art, bool quiet); /* the drawing is no levels */
+bool cli_check_scribbles       (const char *path, const CeldPaint *scribbles); /* no photograph, arrows, levels */
+bool cli_check_strokes         (const char *path, const char *role, const CeldPaint *paint); /* no photograph, regions */
 bool cli_check_no_drawings     (const CliOptions *options, const CliLayers *layers, const CeldPlane *ink);
 bool cli_check_numbers         (const char *path, const CeldPlane *values);  /* all are finite */
 bool cli_check_colours         (const char *path, int width, int height, const float *rgba); /* where they are seen */
@@ -304,6 +305,8 @@ bool cli_check_regions  (const char *path, const CeldLabels *regions, const Celd
 /* That regions are not the drawing; warns of those that have its lines, too. */
 bool cli_check_regions_of (const char *path, const CeldLabels *regions, const CeldPalette *palette, const char *drawing,
                            const CeldPlane *ink, bool quiet);
+/* Rounds colours to bytes; free data, NULL if there is no memory, with g_free. */
+CeldPaint cli_paint_of (const CeldColours *picture);
 /* That contours have not the lines of the drawing, before they are drawn into it; warns of some that change nothing. */
 bool cli_check_contours (const char *path, const CliOptions *options, const CliLayers *layers);
 /* That levels or depth are no drawing, whichever. */

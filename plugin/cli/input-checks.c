@@ -52,9 +52,8 @@ cli_check_different_files (const CliOptions *options)
 
 /* ------------------------------------------------------------------ drawing and scribbles mixed up */
 
-/* Rounds colours to bytes; free data with g_free. */
-static CeldPaint
-bytes_of (const CeldColours *picture)
+CeldPaint
+cli_paint_of (const CeldColours *picture)
 {
   size_t    n = 4 * picture->stride * (size_t) picture->height;
   CeldPaint paint = { picture->width, picture->height, picture->stride, g_try_malloc (n) };
@@ -74,7 +73,7 @@ find_mix_up (const CliOptions *options, CliLayers *layers, CeldMixUp *mix_up)
 
   if (good)
     {
-      paint = bytes_of (&picture);
+      paint = cli_paint_of (&picture);
       good = cli_check (paint.data ? celd_mix_up (&paint, &layers->scribbles, mix_up) : CELD_NO_MEMORY);
     }
   g_free (picture.data);

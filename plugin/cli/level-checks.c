@@ -48,14 +48,20 @@ cli_check_depth (const char *path, const CeldPlane *depth)
                     "--depth.", path);
 }
 
-void
-cli_warn_if_flat (const char *path, const CeldPlane *levels)
+static bool
+is_flat (const CeldPlane *levels)
 {
   size_t n = (size_t) levels->width * (size_t) levels->height, i = 1;
 
   while (i < n && !(fabsf (levels->data[i] - levels->data[0]) > 0))
     i++;
-  if (i == n)
+  return i == n;
+}
+
+void
+cli_warn_if_flat (const char *path, const CeldPlane *levels)
+{
+  if (is_flat (levels))
     cli_say ("\"%s\" has the same value everywhere, so that nothing lies in front of anything.", path);
 }
 
@@ -147,6 +153,17 @@ cli_check_not_art (const char *path, const char *art)
   return good;
 }
 
+/* Whether the drawing is no levels, unless it is said what its lines are. */
+static bool
+check_parts (const CliOptions *options, const CeldColours *drawing)
+{
+  CeldPaint paint = cli_paint_of (drawing);
+  bool      good = cli_check (paint.data ? CELD_OK : CELD_NO_MEMORY) && cli_check_parts (options->drawing, &paint, true);
+
+  g_free (paint.data);
+  return good;
+}
+
 /* Levels are grey and opaque, so that any other drawing is none. */
 bool
 cli_check_not_exchanged (const CliOptions *options, const CeldPlane *levels, CliLayers *layers)
@@ -162,10 +179,17 @@ cli_check_not_exchanged (const CliOptions *options, const CeldPlane *levels, Cli
   for (size_t i = 0; good && i < (size_t) picture.width * (size_t) picture.height; i++)
     brightness.data[i] = picture.data[4 * i];
   good = good && cli_check (celd_levels_are_exchanged (levels, &brightness, &exchanged));
+  /* A blank page may be levels, of one part, but only beside a drawing: narrow parts are not enough. */
+  if (good && exchanged && is_flat (&brightness))
+    good = cli_check (celd_levels_are_drawing (levels, &exchanged));
+  if (good && exchanged)
+    good = cli_error ("\"%s\" looks like a drawing and \"%s\" like levels: exchange them.", options->input,
+                      options->drawing);
+  else if (good && options->settings.ink == CELD_INK_AUTO)
+    good = check_parts (options, &picture);
   g_free (picture.data);
   g_free (brightness.data);
-  return good && (!exchanged || cli_error ("\"%s\" looks like a drawing and \"%s\" like levels: exchange them.",
-                                           options->input, options->drawing));
+  return good;
 }
 
 /* ------------------------------------------------------------------ hints of depth */

@@ -1,11 +1,12 @@
-/* A photograph in place of a drawing or of a layer of strokes, or arrows in place of scribbles: refused, or warned
- * about.
+/* A photograph, levels or regions in place of a drawing or of a layer of strokes, or arrows in place of scribbles:
+ * refused, or warned about.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "cli.h"
 
 #include <glib/gi18n.h>
+#include <string.h>
 
 /* Blank pages are refused elsewhere, with another reason. */
 bool
@@ -24,6 +25,21 @@ cli_check_drawing (const char *path, const CeldDrawing *drawing, bool quiet)
   return true;
 }
 
+/* Regions of flat colours, which may be a drawing without outlines, are only warned about. */
+bool
+cli_check_parts (const char *path, const CeldPaint *art, bool quiet)
+{
+  CeldFlatParts parts = celd_flat_parts (art);
+
+  if (parts == CELD_PARTS_LEVELS)
+    return cli_error (_ ("\"%s\" looks like levels or depth: give the line drawing; if this is it, say what its lines "
+                         "are, such as --ink dark."), path);
+  if (parts == CELD_PARTS_COLOURED && !quiet)
+    cli_say (_ ("\"%s\" has flat colours without lines between them, as regions are: give the line drawing if there is "
+                "one."), path);
+  return true;
+}
+
 bool
 cli_check_scribbles (const char *path, const CeldPaint *scribbles)
 {
@@ -32,6 +48,9 @@ cli_check_scribbles (const char *path, const CeldPaint *scribbles)
   if (!celd_are_scribbles (scribbles))
     return cli_error (_ ("\"%s\" looks like a photograph: scribbles are strokes in flat colours on a blank layer."),
                       path);
+  if (celd_flat_parts (scribbles) == CELD_PARTS_LEVELS)
+    return cli_error (_ ("\"%s\" looks like levels or depth: scribbles are strokes in clear colours, one over each "
+                         "part."), path);
   return cli_check (celd_are_arrows (scribbles, NULL, &arrows)) &&
          (!arrows || cli_error (_ ("\"%s\" looks like arrows: give it with --arrows, and as scribbles a stroke in a "
                                    "colour of its own over each part."), path));
@@ -40,7 +59,12 @@ cli_check_scribbles (const char *path, const CeldPaint *scribbles)
 bool
 cli_check_strokes (const char *path, const char *role, const CeldPaint *paint)
 {
-  return celd_are_scribbles (paint) ||
-         cli_error (_ ("\"%s\" looks like a photograph: what is given with --%s are strokes on a blank layer."),
-                    path, role);
+  bool fills = !strcmp (role, "hidden") || !strcmp (role, "hints"); /* may be large, and grey */
+
+  if (!celd_are_scribbles (paint))
+    return cli_error (_ ("\"%s\" looks like a photograph: what is given with --%s are strokes on a blank layer."), path,
+                      role);
+  return fills || !celd_is_painted_over (paint) ||
+         cli_error (_ ("\"%s\" is painted all over, as regions and levels are: what is given with --%s are strokes on a "
+                       "blank layer."), path, role);
 }

@@ -102,27 +102,49 @@ colours_convert (const Colours *colours, int y, void *to)
   babl_process (colours->fish, colours->row, to, colours->width);
 }
 
-/* Replaces the drawing by its lines if it is a coloured one; *painted gets its colours then. */
+/* Rounds the colours of a picture to bytes; free its data with g_free. */
 static bool
-take_coloured_lines (const Colours *colours, CeldInkMode mode, CeldDrawing *drawing, CeldPaint *painted)
+colours_paint (const Colours *colours, int height, CeldPaint *art)
 {
-  int       width = drawing->luma.width, height = drawing->luma.height;
-  CeldPaint art = { width, height, (size_t) width, g_try_new (uint8_t, 4 * (gsize) width * (gsize) height) };
-  float    *row = g_new (float, 4 * (gsize) width);
-  bool      good = cli_check (art.data ? CELD_OK : CELD_NO_MEMORY);
+  int    width = colours->width;
+  float *row = g_new (float, 4 * (gsize) width);
 
-  for (int y = 0; good && y < height; y++)
+  *art = (CeldPaint) { width, height, (size_t) width, g_try_new (uint8_t, 4 * (gsize) width * (gsize) height) };
+  for (int y = 0; art->data && y < height; y++)
     {
       colours_convert (colours, y, row);
       for (int i = 0; i < 4 * width; i++)
-        art.data[4 * (size_t) y * (size_t) width + (size_t) i] = (uint8_t) (255 * CLAMP (row[i], 0, 1) + 0.5f);
+        art->data[4 * (size_t) y * (size_t) width + (size_t) i] = (uint8_t) (255 * CLAMP (row[i], 0, 1) + 0.5f);
     }
-  good = good && cli_check (celd_coloured_lines (&art, mode, NULL, drawing));
+  g_free (row);
+  return cli_check (art->data ? CELD_OK : CELD_NO_MEMORY);
+}
+
+/* Whether a picture can be a drawing, unless it is said what its lines are.  Beside levels, flat parts can be sprites, or
+ * the levels, which cli_check_not_exchanged says. */
+static bool
+check_drawing (const char *path, const CliOptions *options, const CeldPaint *art, const CeldDrawing *drawing)
+{
+  return options->settings.ink != CELD_INK_AUTO || options->settings.flats ||
+         (((options->drawing && options->step != CLI_ORDER) ||
+           cli_check_parts (path, art, options->quiet || options->drawing)) &&
+          cli_check_drawing (path, drawing, options->quiet));
+}
+
+/* Checks the drawing, and replaces it by its lines if it is a coloured one; *painted gets its colours then. */
+static bool
+take_coloured_lines (const char *path, const Colours *colours, const CliOptions *options, CeldDrawing *drawing,
+                     CeldPaint *painted)
+{
+  CeldPaint art;
+  bool      good = colours_paint (colours, drawing->luma.height, &art) &&
+                   check_drawing (path, options, &art, drawing) &&
+                   cli_check (celd_coloured_lines (&art, options->settings.ink, NULL, drawing));
+
   if (good && celd_paint_is_coloured (&art))
     *painted = art;
   else
     g_free (art.data);
-  g_free (row);
   return good;
 }
 
@@ -130,7 +152,6 @@ bool
 cli_read_drawing (CeldIoFile *file, size_t part, const char *path, const CliOptions *options, CeldDrawing *drawing,
                   CeldPaint *painted)
 {
-  CeldInkMode mode = options->settings.ink;
   int     width = celd_io_width (file), height = celd_io_height (file);
   bool    alpha = celd_io_part (file, part)->alpha;
   float  *row = g_new (float, 4 * (gsize) width);
@@ -146,9 +167,7 @@ cli_read_drawing (CeldIoFile *file, size_t part, const char *path, const CliOpti
       colours_convert (&colours, y, row);
       celd_luma (row, (size_t) width, drawing->luma.data + start, alpha ? drawing->alpha.data + start : NULL);
     }
-  good = good && (mode != CELD_INK_AUTO || options->settings.flats || cli_check_drawing (path, drawing, options->quiet));
-  if (good)
-    good = take_coloured_lines (&colours, mode, drawing, painted);
+  good = good && take_coloured_lines (path, &colours, options, drawing, painted);
   g_free (row);
   colours_clear (&colours);
   return good;

@@ -586,6 +586,40 @@ class Nonsense(Test):
                              '--output', 'o.png', code=1)
         self.assertEqual((said.count('\n'), said[:54]), (1, 'celdepth: "strokes.png" has no handle that can be read'))
 
+    def test_levels_as_a_drawing_or_strokes(self):
+        """Levels and depth, in grey on black; with --ink they are believed to be a drawing."""
+        self.popup('--relations', RELATIONS, '--levels', 'levels.png', '--depth', 'depth.png', '--labels', 'labels.png')
+        self.popup('--relations', RELATIONS, '--levels', 'levels.npy')
+        for name in ('levels.png', 'depth.png'):
+            says = f'"{name}" looks like levels or depth: '
+            for words in (('popup', name, '--scribbles', 'scribbles.png', '--depth', 'd.png'),
+                          ('register', 'drawing.png', name, '--warped', 'w.png'),
+                          ('order', 'labels.png', '--drawing', name, '--unexpanded-levels', 'u.png'),
+                          ('shade', 'levels.npy', '--drawing', name, '--shading', 's.png'),
+                          ('smooth', 'levels.npy', '--drawing', name, '--depth', 'd.png')):
+                self.fails(*words, naming=says + 'give the line drawing')
+            self.fails('popup', 'drawing.png', '--scribbles', name, '--depth', 'd.png',
+                       naming=says + 'scribbles are strokes in clear colours')
+            self.fails('segment', 'drawing.png', '--scribbles', 'scribbles.png', '--arrows', name, '--labels', 'l.png',
+                       naming=f'"{name}" is painted all over, as regions and levels are: what is given with --arrows')
+        self.assertNotIn('levels', self.celdepth('segment', 'levels.png', '--scribbles', 'scribbles.png', '--labels', 'l.png',
+                                                 '--ink', 'dark'))
+
+    def test_regions_as_a_drawing_or_strokes(self):
+        """As a drawing they may be art without outlines; as strokes they have no blank page, but what is hidden may be
+        large."""
+        self.celdepth('segment', 'drawing.png', '--scribbles', 'scribbles.png', '--labels', 'labels.png')
+        words = 'segment', 'labels.png', '--scribbles', 'scribbles.png', '--labels', 'l.png'
+        self.assertIn('"labels.png" has flat colours without lines between them', self.celdepth(*words))
+        for more in (('--quiet',), ('--ink', 'lines'), ('--flats',)):
+            self.assertNotIn('without lines', self.celdepth(*words, *more))
+        of_drawing = 'layers', 'drawing.png', '--scribbles', 'scribbles.png', '--output', 'l.ora'
+        for option in ('arrows', 'contours', 'corrections'):
+            self.fails(*of_drawing, f'--{option}', 'labels.png',
+                       naming=f'"labels.png" is painted all over, as regions and levels are: what is given with --{option}')
+        self.celdepth(*of_drawing, '--hidden', 'labels.png', '--complete', 'yes')
+        self.celdepth('segment', 'drawing.png', '--scribbles', 'labels.png', '--labels', 'l.png')
+
     def test_contours_with_the_drawing(self):
         """Lines that contours would hide; and one sentence alone."""
         self.shade()
