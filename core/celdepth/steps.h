@@ -53,6 +53,8 @@ CELD_API CeldStatus celd_contours_bake (const CeldDrawing *drawing, const CeldPa
 /* Whether a layer can be scribbles, or other strokes: in flat colours on a blank layer, or on scanned paper; no
  * photograph can. */
 CELD_API bool celd_are_scribbles (const CeldPaint *paint);
+/* Whether a picture is strokes in several clear colours on a blank page. */
+CELD_API bool celd_is_coloured_strokes (const CeldPaint *paint);
 /* Whether nearly all strokes of a layer are arrows with heads, at least two: scribbles are not. */
 CELD_API CeldStatus celd_are_arrows (const CeldPaint *paint, const CeldHost *host, bool *are);
 /* Whether scribbles may be a drawing, so that it makes sense to compare both: they are grey, or have lines that part
@@ -97,6 +99,10 @@ CELD_API CeldStatus celd_levels_have_lines (const CeldPlane *levels, const CeldP
 CELD_API CeldStatus celd_levels_are_drawing (const CeldPlane *levels, bool *are);
 /* Whether finite levels or depth are a drawing, and the drawing, by its brightness, is levels. */
 CELD_API CeldStatus celd_levels_are_exchanged (const CeldPlane *levels, const CeldPlane *drawing, bool *exchanged);
+
+/* The share of the steps of finite levels, or of the numbers of labels, that are at lines of a drawing of their size, which
+ * are less than 0.5; 1 if there are too few steps to tell. */
+CELD_API double celd_steps_on_lines (const CeldPlane *levels, const CeldPlane *lines);
 
 /* Reads painted scribbles: seed labels (0 where nothing is painted), and the palette of their colours, of origin
  * CELD_FROM_SCRIBBLE, by decreasing painted area.  Pixels with alpha below one half count as not painted, and in a

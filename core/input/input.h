@@ -34,10 +34,8 @@
 
 /* paint-kinds.c: the difference of the largest and the least channel of a pixel. */
 int celd_hue_of (const uint8_t *p);
-/* Whether a picture that is not empty is grey, as inks are; whether it is strokes in several clear colours on a blank
- * page. */
+/* Whether a picture that is not empty is grey, as inks are. */
 bool celd_is_grey (const CeldPaint *paint);
-bool celd_is_coloured_strokes (const CeldPaint *paint);
 /* Whether something in clear colours is painted, be it a few thin strokes. */
 bool celd_paint_has_colours (const CeldPaint *paint);
 

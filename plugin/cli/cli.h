@@ -307,8 +307,13 @@ bool cli_check_regions_of (const char *path, const CeldLabels *regions, const Ce
                            const CeldPlane *ink, bool quiet);
 /* Rounds colours to bytes; free data, NULL if there is no memory, with g_free. */
 CeldPaint cli_paint_of (const CeldColours *picture);
+/* That of two drawings not just one is scribbles. */
+bool cli_check_alike (const CliOptions *options, const CliLayers *first, const CliLayers *second);
 /* That contours have not the lines of the drawing, before they are drawn into it; warns of some that change nothing. */
 bool cli_check_contours (const char *path, const CliOptions *options, const CliLayers *layers);
+/* That the drawing of levels is no scribbles; warns if it is that of another page. */
+bool cli_check_steps (const char *path, const CeldPlane *levels, const CliOptions *options, const CliLayers *layers,
+                      const char *drawing, const CeldPlane *ink);
 /* That levels or depth are no drawing, whichever. */
 bool cli_check_not_drawn (const char *path, const CeldPlane *levels);
 /* The same, and that they have not the lines of this drawing, by its ink or brightness; the second one only warns of

@@ -93,6 +93,21 @@ check_not_scribbles (const CliOptions *options, const CliLayers *layers)
                                       "as the drawing."), options->input, options->scribbles));
 }
 
+static bool
+is_strokes (const CliLayers *layers)
+{
+  return layers->colours.data && celd_is_coloured_strokes (&layers->colours);
+}
+
+bool
+cli_check_alike (const CliOptions *options, const CliLayers *first, const CliLayers *second)
+{
+  bool one = is_strokes (first), other = is_strokes (second);
+
+  return one == other || cli_error (_ ("\"%s\" looks like scribbles and \"%s\" like a drawing: give two drawings."),
+                                    one ? options->input : options->target, one ? options->target : options->input);
+}
+
 bool
 cli_check_not_mixed_up (const CliOptions *options, CliLayers *layers)
 {

@@ -6,6 +6,11 @@
 #include "cli.h"
 
 #include <math.h>
+#include <stdlib.h>
+
+#define EDGE       48   /* of 255: by how much colours or alpha differ at an edge; chosen */
+#define FEW        0.4  /* of the steps of levels, at lines of a drawing: it is another one (measured: 0.34; own ones 0.85) */
+#define HARDLY_ANY 0.15 /* the same at strokes of scribbles (measured: 0.05) */
 
 bool
 cli_check_grey (const char *path)
@@ -101,6 +106,60 @@ cli_warn_of_lines (const char *path, const CeldPlane *levels, const char *drawin
              "where lines are.", path, drawing);
   return true;
 }
+
+/* ------------------------------------------------------------------ of another page */
+
+static bool
+differ (const uint8_t *p, const uint8_t *q)
+{
+  int most = 0;
+
+  for (int k = 0; k < 4; k++)
+    most = MAX (most, abs (p[k] - q[k]));
+  return most >= EDGE;
+}
+
+/* Whether colours or alpha change from a pixel to another one. */
+static bool
+is_edge (const CliLayers *layers, size_t p, size_t q)
+{
+  const float *alpha = layers->drawing.alpha.data;
+
+  return layers->colours.data ? differ (layers->colours.data + 4 * p, layers->colours.data + 4 * q)
+                              : alpha && 255 * fabsf (alpha[p] - alpha[q]) >= EDGE;
+}
+
+/* The lines of a drawing, and edges of its colours, since a sprite may have no outlines. */
+static void
+find_edges (const CliLayers *layers, const CeldPlane *ink, CeldPlane *lines)
+{
+  size_t width = (size_t) ink->width, n = width * (size_t) ink->height;
+
+  for (size_t p = 0; p < n; p++)
+    lines->data[p] = (p % width + 1 < width && is_edge (layers, p, p + 1)) || (p + width < n && is_edge (layers, p, p + width))
+                       ? 0 : ink->data[p];
+}
+
+bool
+cli_check_steps (const char *path, const CeldPlane *levels, const CliOptions *options, const CliLayers *layers,
+                 const char *drawing, const CeldPlane *ink)
+{
+  CeldPlane lines = { 0 };
+  double    share = 1;
+
+  if (!cli_plane_new (ink->width, ink->height, &lines))
+    return false;
+  find_edges (layers, ink, &lines);
+  share = celd_steps_on_lines (levels, &lines);
+  g_free (lines.data);
+  if (share < HARDLY_ANY && layers->colours.data && celd_is_coloured_strokes (&layers->colours))
+    return cli_error ("\"%s\" looks like scribbles: give the line drawing.", drawing);
+  if (share < FEW && !options->quiet)
+    cli_say ("The parts of \"%s\" do not end at the lines of \"%s\": give the drawing of the same page.", path, drawing);
+  return true;
+}
+
+/* ------------------------------------------------------------------ regions */
 
 /* Flat colours that were filled into a drawing are regions and lines, of which something can be made. */
 bool

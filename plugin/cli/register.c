@@ -95,6 +95,7 @@ lattice_of_levels (Registration *r)
                       r->options->source_levels, levels.width, levels.height, r->options->input, r->source.width,
                       r->source.height);
   good = good && cli_check_no_lines (r->options->source_levels, &levels, r->options->input, &r->ink[0]) &&
+         cli_check_steps (r->options->source_levels, &levels, r->options, &r->source, r->options->input, &r->ink[0]) &&
          check_moved (r, celd_lattice_of_levels (&r->ink[0], &levels, regions.data ? &regions : NULL,
                                                          &r->options->settings, &r->run.host, &r->lattice));
   g_free (levels.data);
@@ -173,6 +174,7 @@ read_drawings (Registration *r)
   r->target.width  = r->source.width;
   r->target.height = r->source.height;
   return cli_layers_read (r->options->target, &plain, CLI_DRAWING, &r->target) &&
+         cli_check_alike (r->options, &r->source, &r->target) &&
          cli_make_ink (&r->source, CELD_FOR_DEPTH, r->options, &r->run, &r->ink[0]) &&
          cli_make_ink (&r->target, CELD_FOR_DEPTH, r->options, &r->run, &r->ink[1]);
 }

@@ -267,7 +267,8 @@ check_no_drawings (const CliOptions *options, const Shade *s)
 
   if (!cli_check_no_lines (options->input, &s->levels, options->drawing, &s->ink) ||
       (s->depth.data && !cli_check_no_lines (options->smooth_depth, &s->depth, options->drawing, &s->ink)) ||
-      (s->hints.data && !cli_check (celd_layer_lines (&s->hints, &s->ink, &lines))))
+      (s->hints.data && !cli_check (celd_layer_lines (&s->hints, &s->ink, &lines))) ||
+      !cli_check_steps (options->input, &s->levels, options, &s->layers, options->drawing, &s->ink))
     return false;
   if (lines != CELD_LAYER_WITHOUT_LINES && !options->quiet)
     cli_say ("\"%s\" has the lines of \"%s\", as if it were the drawing: hints are paint beside lines.", options->hints,

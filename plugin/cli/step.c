@@ -55,6 +55,7 @@ cli_step_begin (const CliOptions *options, CliStep *step)
          cli_check_not_exchanged (options, &step->levels, &step->layers) &&
          cli_make_ink (&step->layers, CELD_FOR_DEPTH, options, &step->run, &step->ink) &&
          cli_check_lines (options->drawing, &step->ink) && check_no_lines (options, step) &&
+         cli_check_steps (options->input, &step->levels, options, &step->layers, options->drawing, &step->ink) &&
          (!step->layers.contours.data ||
           cli_make_ink (&step->layers, CELD_FOR_SEGMENTATION, options, &step->run, &step->borders));
   if (good && !options->quiet)

@@ -620,6 +620,34 @@ class Nonsense(Test):
         self.celdepth(*of_drawing, '--hidden', 'labels.png', '--complete', 'yes')
         self.celdepth('segment', 'drawing.png', '--scribbles', 'labels.png', '--labels', 'l.png')
 
+    def test_drawing_of_another_page(self):
+        """Levels and regions end at the lines of their own drawing, or where its colours change."""
+        self.popup('--relations', RELATIONS, '--levels', 'levels.png', '--labels', 'labels.png')
+        other = Image.new('L', (WIDTH, HEIGHT), 255)
+        ImageDraw.Draw(other).rectangle([22, 17, 34, 38], outline=0, width=2)
+        ImageDraw.Draw(other).ellipse([52, 34, 74, 50], outline=0, width=2)
+        other.save(self.path('other.png'))
+        Image.new('L', (WIDTH, HEIGHT), 255).save(self.path('white.png'))
+        for command, name, *words in (('shade', 'levels.png', '--shading', 's.png'), ('smooth', 'levels.png', '--depth', 'd.png'),
+                                      ('relief', 'levels.png', '--height', 'h.png'), ('expand', 'levels.png', '--levels', 'l.png'),
+                                      ('order', 'labels.png', '--unexpanded-levels', 'u.png')):
+            of = command, name, '--drawing'
+            says = f'The parts of "{name}" do not end at the lines of "other.png"'
+            self.assertIn(says, self.celdepth(*of, 'other.png', *words))
+            self.assertEqual(self.celdepth(*of, 'other.png', *words, '--quiet'), '')
+            self.assertNotIn('do not end', self.celdepth(*of, 'drawing.png', *words))
+            self.assertNotIn('do not end', self.celdepth(*of, 'labels.png', *words) if command != 'order' else '')
+            os.remove(self.path(words[1]))
+            self.fails(*of, 'scribbles.png', *words, naming='"scribbles.png" looks like scribbles: give the line drawing')
+            self.fails(*of, 'white.png', *words, naming='"white.png" has no lines')
+        of_register = 'register', '--source-levels', 'levels.png', '--warped', 'w.png', 'other.png', 'drawing.png'
+        self.assertIn('do not end at the lines of "other.png"', self.celdepth(*of_register))
+
+    def test_scribbles_as_one_of_two_drawings(self):
+        for pair in (('scribbles.png', 'drawing.png'), ('drawing.png', 'scribbles.png')):
+            self.fails('register', *pair, '--warped', 'w.png',
+                       naming='"scribbles.png" looks like scribbles and "drawing.png" like a drawing: give two drawings')
+
     def test_contours_with_the_drawing(self):
         """Lines that contours would hide; and one sentence alone."""
         self.shade()
