@@ -278,8 +278,9 @@ size_t cli_find_part (const CeldIoFile *file, const char *name);
 bool cli_layer_read (const char *path, const char *role, CliLayers *layers, CeldPaint *paint);
 
 /* Reads the colours of the drawing in `input`, or if `path` is not NULL the part "colours" of that file, or else its
- * first part. */
-bool cli_art_read (const char *input, const char *path, bool linear, CliLayers *layers, CeldColours *art);
+ * first part, and warns of such that show nothing. */
+bool cli_art_read (const CliOptions *options, const char *input, const char *path, bool linear, CliLayers *layers,
+                   CeldColours *art);
 
 /* ------------------------------------------------------------------ input-checks.c, photograph.c */
 
@@ -311,6 +312,8 @@ CeldPaint cli_paint_of (const CeldColours *picture);
 bool cli_check_alike (const CliOptions *options, const CliLayers *first, const CliLayers *second);
 /* That contours have not the lines of the drawing, before they are drawn into it; warns of some that change nothing. */
 bool cli_check_contours (const char *path, const CliOptions *options, const CliLayers *layers);
+/* Warns of art that is blank, or levels; false if there is no memory. */
+bool cli_warn_of_art (const char *path, const CeldColours *art, bool linear);
 /* That the drawing of levels is no scribbles; warns if it is that of another page. */
 bool cli_check_steps (const char *path, const CeldPlane *levels, const CliOptions *options, const CliLayers *layers,
                       const char *drawing, const CeldPlane *ink);

@@ -113,7 +113,7 @@ read_drawing (Compose *c, const CliFragment *fragment, Drawing *d)
   good = cli_check (d->session ? CELD_OK : CELD_NO_MEMORY) &&
          cli_session_load (d->session, &fragment->options, &input) &&
          read_handles (c, fragment, &input, &d->handles) &&
-         cli_art_read (fragment->options.input, fragment->options.colours, c->linear, &input, &art);
+         cli_art_read (&fragment->options, fragment->options.input, fragment->options.colours, c->linear, &input, &art);
   cli_layers_clear (&input);
   good = good && cli_run_finish (&c->run, cut (&art, c->options->settings.complete, &c->run, d));
   g_free (art.data);

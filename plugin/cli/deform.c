@@ -87,7 +87,7 @@ read_input (Deformation *d)
 
   good = cli_check (d->session ? CELD_OK : CELD_NO_MEMORY) && cli_session_load (d->session, options, &input) &&
          (options->handle_keys ? cli_handle_keys_read (options->handle_keys, &d->keys) : keys_of_handles (d, &input)) &&
-         cli_art_read (options->input, options->colours, is_linear (options), &input, &art);
+         cli_art_read (options, options->input, options->colours, is_linear (options), &input, &art);
   d->width  = input.width;
   d->height = input.height;
   good = good && make_puppet (d, &art);

@@ -131,8 +131,8 @@ cut_layers (Between *b, int s)
   CeldColours       art = { 0 };
   CeldStatus        status;
   bool              good = ownership_new (motion->width, motion->height, &own) &&
-                           cli_art_read (motion->frames.frame[s].path, s ? o->second_colours : o->colours, true, &size,
-                                         &art);
+                           cli_art_read (o, motion->frames.frame[s].path, s ? o->second_colours : o->colours, true,
+                                         &size, &art);
 
   if (good)
     {

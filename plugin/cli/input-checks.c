@@ -69,7 +69,7 @@ find_mix_up (const CliOptions *options, CliLayers *layers, CeldMixUp *mix_up)
 {
   CeldColours picture = { 0 };
   CeldPaint   paint = { 0 };
-  bool        good = cli_art_read (options->input, NULL, false, layers, &picture);
+  bool        good = cli_art_read (options, options->input, NULL, false, layers, &picture);
 
   if (good)
     {
@@ -242,6 +242,29 @@ cli_check_contours (const char *path, const CliOptions *options, const CliLayers
 {
   return (options->settings.flats || check_contours (path, layers, options->settings.ink)) &&
          (options->quiet || warn_if_vain (path, layers, options->settings.ink));
+}
+
+/* ------------------------------------------------------------------ art that shows nothing */
+
+bool
+cli_warn_of_art (const char *path, const CeldColours *art, bool linear)
+{
+  CeldColours encoded = { 0 };
+  CeldPaint   paint = { 0 };
+  bool        good = !linear || cli_colours_new (art->width, art->height, &encoded);
+
+  for (int y = 0; linear && good && y < art->height; y++)
+    cli_encode (art->data + 4 * art->stride * (size_t) y, art->width, encoded.data + 4 * encoded.stride * (size_t) y);
+  if (good)
+    paint = cli_paint_of (linear ? &encoded : art);
+  good = good && cli_check (paint.data ? CELD_OK : CELD_NO_MEMORY);
+  if (good && is_blank (&paint))
+    cli_say ("\"%s\" is blank, or of one colour: give the drawing in colours, with its lines or without.", path);
+  else if (good && celd_flat_parts (&paint) == CELD_PARTS_LEVELS)
+    cli_say ("\"%s\" looks like levels or depth: give the drawing in colours, with its lines or without.", path);
+  g_free (encoded.data);
+  g_free (paint.data);
+  return good;
 }
 
 /* ------------------------------------------------------------------ no lines */

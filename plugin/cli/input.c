@@ -180,7 +180,8 @@ cli_hint_read (const char *path, const CliLayers *layers, CeldPlane *depth)
 }
 
 bool
-cli_art_read (const char *input, const char *path, bool linear, CliLayers *layers, CeldColours *art)
+cli_art_read (const CliOptions *options, const char *input, const char *path, bool linear, CliLayers *layers,
+              CeldColours *art)
 {
   CeldIoFile *file = open_file (path ? path : input);
   size_t      part = !file ? 0 : path ? cli_find_part (file, "colours") : find_drawing (file, input);
@@ -188,7 +189,7 @@ cli_art_read (const char *input, const char *path, bool linear, CliLayers *layer
                      cli_read_part (file, part == CELD_NO_INDEX ? 0 : part, linear, art);
 
   celd_io_close (file);
-  return good;
+  return good && (!path || options->quiet || cli_warn_of_art (path, art, linear));
 }
 
 /* ------------------------------------------------------------------ all layers */

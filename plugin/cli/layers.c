@@ -162,7 +162,7 @@ run_layers (const CliOptions *options)
   cli_run_begin (&run, options, "reading labels order layers writing");
   cli_run_stage (&run, "reading");
   good = cli_check (session ? CELD_OK : CELD_NO_MEMORY) && cli_session_load (session, options, &input) &&
-         cli_art_read (options->input, options->colours, linear, &input, &art);
+         cli_art_read (options, options->input, options->colours, linear, &input, &art);
   cli_layers_clear (&input);
   good = good && make (session, &run, &order) &&
          cli_layers_write (options->output, session, linear, &art, &run, &layers);

@@ -233,7 +233,7 @@ cli_check_not_exchanged (const CliOptions *options, const CeldPlane *levels, Cli
 
   if (layers->colours.data || layers->drawing.alpha.data)
     return true;
-  good = cli_art_read (options->drawing, NULL, false, layers, &picture) &&
+  good = cli_art_read (options, options->drawing, NULL, false, layers, &picture) &&
          cli_plane_new (picture.width, picture.height, &brightness);
   for (size_t i = 0; good && i < (size_t) picture.width * (size_t) picture.height; i++)
     brightness.data[i] = picture.data[4 * i];

@@ -137,7 +137,7 @@ static bool
 write_warped (Registration *r)
 {
   CeldColours art = { 0 }, warped = { 0 };
-  bool        good = cli_art_read (r->options->input, r->options->colours, true, &r->source, &art) &&
+  bool        good = cli_art_read (r->options, r->options->input, r->options->colours, true, &r->source, &art) &&
                      cli_colours_new (art.width, art.height, &warped) &&
                      cli_check (celd_lattice_warp (r->lattice, &art, &warped)) &&
                      cli_write_colours (r->options->warped, &warped);

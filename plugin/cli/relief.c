@@ -142,7 +142,8 @@ run_on_levels (const CliOptions *options)
   CliStep     step;
   CeldColours art = { 0 };
   bool        good = cli_step_begin (options, &step) &&
-                     (!options->mesh || cli_art_read (options->drawing, options->colours, false, &step.layers, &art)) &&
+                     (!options->mesh || cli_art_read (options, options->drawing, options->colours, false, &step.layers,
+                                                      &art)) &&
                      (!wants_heights (options) || relief_of_levels (options, &art, &step)) &&
                      (!wants_parts (options) || model_of_levels (options, &art, &step));
 
@@ -234,7 +235,7 @@ run_on_drawing (const CliOptions *options)
   cli_run_begin (&run, options, "reading labels order relief mesh writing");
   cli_run_stage (&run, "reading");
   good = cli_check (session ? CELD_OK : CELD_NO_MEMORY) && cli_session_load (session, &whole, &input) &&
-         (!options->mesh || cli_art_read (options->input, options->colours, false, &input, &art));
+         (!options->mesh || cli_art_read (options, options->input, options->colours, false, &input, &art));
   if (good && cli_run_finish (&run, make_order (session, &run, &labels, &order)) &&
       cli_relief_write (session, options, &art, &run))
     code = finish (session, options, &run, &labels, order);

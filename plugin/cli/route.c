@@ -174,7 +174,7 @@ run_route (void *data)
   cli_run_stage (&run, "reading");
   good = cli_session_load (session, options, &layers);
   if (good && needs_art (options))
-    good = cli_art_read (options->input, options->colours, true, &layers, &art);
+    good = cli_art_read (options, options->input, options->colours, true, &layers, &art);
   cli_layers_clear (&layers);
   good = good && cli_run_finish (&run, make (session, options, route->whole_route, &run, &results));
   cli_run_stage (&run, "writing");

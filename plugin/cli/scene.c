@@ -74,7 +74,7 @@ cli_scene_new (const CliOptions *options, CliRun *run, CliScene *s)
   *s   = (CliScene) { .session = celd_session_new (), .settings = &options->settings, .run = run };
   cli_run_stage (run, "reading");
   good = cli_check (s->session ? CELD_OK : CELD_NO_MEMORY) && cli_session_load (s->session, &whole, &input);
-  good = good && cli_art_read (options->input, options->colours, true, &input, &art);
+  good = good && cli_art_read (options, options->input, options->colours, true, &input, &art);
   cli_layers_clear (&input);
   good = good && cli_scene_make (&art, s);
   if (good)

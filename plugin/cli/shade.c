@@ -59,8 +59,8 @@ read_art (const CliOptions *options, Shade *s)
   if (!options->shaded && !options->maps)
     return true;
   if (!options->colours)
-    return cli_art_read (options->drawing, NULL, true, &s->layers, &s->art);
-  return cli_art_read (options->colours, options->colours, true, &s->layers, &s->art);
+    return cli_art_read (options, options->drawing, NULL, true, &s->layers, &s->art);
+  return cli_art_read (options, options->colours, options->colours, true, &s->layers, &s->art);
 }
 
 static bool

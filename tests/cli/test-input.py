@@ -648,6 +648,22 @@ class Nonsense(Test):
             self.fails('register', *pair, '--warped', 'w.png',
                        naming='"scribbles.png" looks like scribbles and "drawing.png" like a drawing: give two drawings')
 
+    def test_art_that_shows_nothing(self):
+        """It is only warned about: fills may be of any kind."""
+        self.popup('--relations', RELATIONS, '--levels', 'levels.png', '--labels', 'labels.png')
+        Image.new('RGBA', (WIDTH, HEIGHT)).save(self.path('blank.png'))
+        self.shade()
+        for command, *words in (('popup', 'drawing.png', '--scribbles', 'scribbles.png', '--shaded', 's.png'),
+                                ('shade', 'levels.png', '--drawing', 'drawing.png', '--shaded', 's.png'),
+                                ('layers', 'drawing.png', '--scribbles', 'scribbles.png', '--output', 'l.ora')):
+            words = command, *words, '--colours'
+            self.assertIn('"blank.png" is blank, or of one colour', self.celdepth(*words, 'blank.png'))
+            self.assertEqual(self.celdepth(*words, 'blank.png', '--quiet'), '')
+            if command != 'shade': # where it is the levels, too
+                self.assertIn('"levels.png" looks like levels or depth', self.celdepth(*words, 'levels.png'))
+            for name in ('labels.png', 'coloured.png', 'grey.png', 'drawing.png'):
+                self.assertEqual(self.celdepth(*words, name), '', (command, name))
+
     def test_contours_with_the_drawing(self):
         """Lines that contours would hide; and one sentence alone."""
         self.shade()
