@@ -159,6 +159,20 @@ cli_check_steps (const char *path, const CeldPlane *levels, const CliOptions *op
   return true;
 }
 
+bool
+cli_check_region_steps (const char *path, const CeldLabels *regions, const CliOptions *options, const CliLayers *layers,
+                        const char *drawing, const CeldPlane *ink)
+{
+  CeldPlane numbers = { 0 };
+  bool      good = cli_plane_new (regions->width, regions->height, &numbers);
+
+  for (size_t i = 0; good && i < (size_t) numbers.width * (size_t) numbers.height; i++)
+    numbers.data[i] = (float) regions->data[i];
+  good = good && cli_check_steps (path, &numbers, options, layers, drawing, ink);
+  g_free (numbers.data);
+  return good;
+}
+
 /* ------------------------------------------------------------------ regions */
 
 /* Flat colours that were filled into a drawing are regions and lines, of which something can be made. */

@@ -17,20 +17,6 @@ typedef struct
   CliRun        run;
 } Ordering;
 
-/* Whether the drawing is that of the regions. */
-static bool
-check_steps (const CliOptions *options, const Ordering *o)
-{
-  CeldPlane numbers = { 0 };
-  bool      good = cli_plane_new (o->labels.width, o->labels.height, &numbers);
-
-  for (size_t i = 0; good && i < (size_t) numbers.width * (size_t) numbers.height; i++)
-    numbers.data[i] = (float) o->labels.data[i];
-  good = good && cli_check_steps (options->input, &numbers, options, &o->layers, options->drawing, &o->ink);
-  g_free (numbers.data);
-  return good;
-}
-
 static bool
 load_ordering (const CliOptions *options, Ordering *o)
 {
@@ -52,7 +38,7 @@ load_ordering (const CliOptions *options, Ordering *o)
                    cli_check_lines (options->drawing, &o->ink) &&
                    cli_check_regions_of (options->input, &o->labels, &o->palette, options->drawing, &o->ink,
                                          options->quiet) &&
-                   check_steps (options, o) &&
+                   cli_check_region_steps (options->input, &o->labels, options, &o->layers, options->drawing, &o->ink) &&
                    (!o->hint.data || options->quiet ||
                     cli_warn_of_lines (options->depth_hint, &o->hint, options->drawing, &o->ink))));
 }

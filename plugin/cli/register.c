@@ -87,7 +87,9 @@ lattice_of_levels (Registration *r)
                      (!r->options->regions ||
                       (cli_regions_read (r->options->regions, &r->source, &regions, &palette) &&
                        cli_check_regions_of (r->options->regions, &regions, &palette, r->options->input, &r->ink[0],
-                                             r->options->quiet)));
+                                             r->options->quiet) &&
+                       cli_check_region_steps (r->options->regions, &regions, r->options, &r->source, r->options->input,
+                                               &r->ink[0])));
 
   cli_run_stage (&r->run, "lattice");
   if (good && (levels.width != r->source.width || levels.height != r->source.height))

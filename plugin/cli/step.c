@@ -92,7 +92,8 @@ bool
 cli_step_regions (const CliOptions *options, CliStep *step, CeldLabels *regions, CeldPalette *palette)
 {
   return cli_regions_read (options->regions, &step->layers, regions, palette) &&
-         cli_check_regions_of (options->regions, regions, palette, options->drawing, &step->ink, options->quiet);
+         cli_check_regions_of (options->regions, regions, palette, options->drawing, &step->ink, options->quiet) &&
+         cli_check_region_steps (options->regions, regions, options, &step->layers, options->drawing, &step->ink);
 }
 
 int

@@ -640,6 +640,8 @@ class Nonsense(Test):
             os.remove(self.path(words[1]))
             self.fails(*of, 'scribbles.png', *words, naming='"scribbles.png" looks like scribbles: give the line drawing')
             self.fails(*of, 'white.png', *words, naming='"white.png" has no lines')
+        self.assertIn('The parts of "scribbles.png" do not end at the lines of "drawing.png"', self.celdepth(
+            'expand', 'levels.png', '--drawing', 'drawing.png', '--regions', 'scribbles.png', '--levels', 'l.npy'))
         of_register = 'register', '--source-levels', 'levels.png', '--warped', 'w.png', 'other.png', 'drawing.png'
         self.assertIn('do not end at the lines of "other.png"', self.celdepth(*of_register))
 
