@@ -138,7 +138,7 @@ celd_flat_parts (const CeldPaint *paint)
 {
   if (!is_without_lines (paint) || find_colours (paint).n < FEW_PARTS)
     return CELD_PARTS_NONE;
-  return celd_is_grey (paint) && is_opaque (paint) && has_black_page (paint) ? CELD_PARTS_LEVELS : CELD_PARTS_COLOURED;
+  return celd_is_grey (paint) && has_black_page (paint) ? CELD_PARTS_LEVELS : CELD_PARTS_COLOURED;
 }
 
 bool

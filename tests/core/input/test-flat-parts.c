@@ -64,19 +64,50 @@ drawings (void)
   CHECK (parts (few, 0, 255) == CELD_PARTS_NONE);
 }
 
-/* Depth changes a little from pixel to pixel, grain much. */
+/* What is added to the grey of a part. */
+static int
+gentle (int x, int y)
+{
+  return (x + y) / 20;
+}
+
+static int
+steep (int x, int y)
+{
+  return (x + y) % 200 < 100 ? (x + y) % 100 : 100 - (x + y) % 100;
+}
+
+/* A narrow part. */
+static int
+strip (int x, int y)
+{
+  (void) y;
+  return x >= 50 && x < 54 ? 60 : 0;
+}
+
+static int
+grain (int x, int y)
+{
+  return (7 * x + 5 * y) % 31;
+}
+
+static CeldFlatParts
+parts_with (int (*more) (int x, int y))
+{
+  CeldPaint paint = draw (greys, 0, 255);
+
+  for (int i = 0; i < SIDE * SIDE; i++)
+    for (int k = 0; k < 3 && part_at (i % SIDE, i / SIDE) == 1; k++)
+      rgba[4 * i + k] = (uint8_t) (90 + more (i % SIDE, i / SIDE));
+  return celd_flat_parts (&paint);
+}
+
+/* Depth changes a little from place to place; shading changes at each pixel, and grain much. */
 static void
 slopes_and_grain (void)
 {
-  for (int grain = 0; grain < 2; grain++)
-    {
-      CeldPaint paint = draw (greys, 0, 255);
-
-      for (int i = 0; i < SIDE * SIDE; i++)
-        for (int k = 0; k < 3 && part_at (i % SIDE, i / SIDE) == 1; k++)
-          rgba[4 * i + k] = (uint8_t) (90 + (grain ? (7 * (i % SIDE) + 5 * (i / SIDE)) % 31 : i / SIDE / 20));
-      CHECK (celd_flat_parts (&paint) == (grain ? CELD_PARTS_NONE : CELD_PARTS_LEVELS));
-    }
+  CHECK (parts_with (gentle) == CELD_PARTS_LEVELS && parts_with (strip) == CELD_PARTS_LEVELS);
+  CHECK (parts_with (steep) == CELD_PARTS_NONE && parts_with (grain) == CELD_PARTS_NONE);
 }
 
 /* Levels and regions leave no page; parts on a blank page, or on paper, may be strokes. */
@@ -92,12 +123,15 @@ what_leaves_no_page (void)
   CHECK (!celd_is_painted_over (&paint));
   draw (clear, 2, 255);
   CHECK (!celd_is_painted_over (&paint));
-  draw (clear, 0, 255);
-  for (int i = 0; i < SIDE * SIDE; i++)
-    for (int k = 0; k < 3; k++)
-      if (part_at (i % SIDE, i / SIDE) < 2)
-        rgba[4 * i + k] = 250;
-  CHECK (celd_flat_parts (&paint) == CELD_PARTS_COLOURED && !celd_is_painted_over (&paint));
+  for (int white = 0; white < 2; white++)
+    {
+      draw (clear, 0, 255);
+      for (int i = 0; i < SIDE * SIDE; i++)
+        for (int k = 0; k < 3; k++)
+          if (part_at (i % SIDE, i / SIDE) < 2)
+            rgba[4 * i + k] = white ? 250 : clear[0][k];
+      CHECK (celd_flat_parts (&paint) == CELD_PARTS_COLOURED && celd_is_painted_over (&paint) == !white);
+    }
 }
 
 int
