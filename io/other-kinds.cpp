@@ -1,5 +1,5 @@
-// Kinds of files that are taken for pictures and cannot be read, by the bytes that they begin with: what to do is said of
-// each.
+// Kinds of files that are taken for pictures and cannot be read, by the bytes that they begin with: what to do is said
+// of each.
 //
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "read-file.hpp"
@@ -51,6 +51,6 @@ unreadable_reason (const std::string &path)
   if (is_text (start))
     return start.find ("<svg") != std::string::npos ? "it is an SVG, which cannot be read. Save it as PNG."
                                                     : "it is a text and no picture.";
-  return "it is damaged, or of a format that cannot be read. PNG, JPEG, TIFF, EXR, PSD, ORA, KRA, WebP, GIF and JPEG 2000 "
-         "can be read; save XCF as ORA or PSD.";
+  return "it is damaged, or of a format that cannot be read. PNG, JPEG, TIFF, EXR, PSD, ORA, KRA, WebP, GIF and JPEG "
+         "2000 can be read; save XCF as ORA or PSD.";
 }

@@ -100,8 +100,8 @@ CELD_API CeldStatus celd_levels_are_drawing (const CeldPlane *levels, bool *are)
 /* Whether finite levels or depth are a drawing, and the drawing, by its brightness, is levels. */
 CELD_API CeldStatus celd_levels_are_exchanged (const CeldPlane *levels, const CeldPlane *drawing, bool *exchanged);
 
-/* The share of the steps of finite levels, or of the numbers of labels, that are at lines of a drawing of their size, which
- * are less than 0.5; 1 if there are too few steps to tell. */
+/* The share of the steps of finite levels, or of the numbers of labels, that are at lines of a drawing of their size,
+ * which are less than 0.5; 1 if there are too few steps to tell. */
 CELD_API double celd_steps_on_lines (const CeldPlane *levels, const CeldPlane *lines);
 
 /* Reads painted scribbles: seed labels (0 where nothing is painted), and the palette of their colours, of origin

@@ -1,8 +1,8 @@
 /* Whether levels belong to a drawing: parts end at its lines.
  *
  * Of the steps of levels of 28 drawings, also of grainy ones and of such with wide gaps, at least 0.85 are at lines of
- * their own drawing; at those of other drawings, in the same size, at most 0.34, and at strokes of their scribbles, which
- * keep away from lines, at most 0.05.
+ * their own drawing; at those of other drawings, in the same size, at most 0.34, and at strokes of their scribbles,
+ * which keep away from lines, at most 0.05.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -10,12 +10,12 @@
 
 #include <math.h>
 
-#define STEP         32    /* of the range of levels; what differs by less than one is a slope, or loss in a file; chosen */
-#define REACH        300   /* the diagonal divided by how far from a line a step is at it (chosen) */
-#define LEAST_REACH  2     /* pixels; chosen */
-#define LINE         0.5f  /* what is darker is a line; chosen */
-#define FEW_STEPS    4     /* width and height divided by the number of steps that tell too little; chosen */
-#define MOST_SAMPLES 20000 /* steps that are looked at; chosen */
+#define LEVEL_STEP       32    /* of the range of levels; what differs by less is a slope, or loss in a file; chosen */
+#define STEP_REACH       300   /* the diagonal divided by how far from a line a step is at it (chosen) */
+#define LEAST_STEP_REACH 2     /* pixels; chosen */
+#define LINE_VALUE       0.5f  /* what is darker is a line; chosen */
+#define FEW_STEPS        4     /* width and height divided by the number of steps that tell too little; chosen */
+#define MOST_SAMPLES     20000 /* steps that are looked at; chosen */
 
 static bool
 is_step (const CeldPlane *levels, int x, int y, float least)
@@ -44,7 +44,7 @@ is_at_line (const CeldPlane *lines, int x, int y, int reach)
 
   for (int v = top; v <= y + reach && v < lines->height; v++)
     for (int u = left; u <= x + reach && u < lines->width; u++)
-      if (CELD_AT (lines, u, v) < LINE)
+      if (CELD_AT (lines, u, v) < LINE_VALUE)
         return true;
   return false;
 }
@@ -52,13 +52,13 @@ is_at_line (const CeldPlane *lines, int x, int y, int reach)
 double
 celd_steps_on_lines (const CeldPlane *levels, const CeldPlane *lines)
 {
-  int    reach = (int) (hypot (levels->width, levels->height) / REACH);
+  int    reach = (int) (hypot (levels->width, levels->height) / STEP_REACH);
   size_t all, seen = 0, found = 0, stride, number = 0;
   float  least, most, step;
 
-  reach = reach > LEAST_REACH ? reach : LEAST_REACH;
+  reach = reach > LEAST_STEP_REACH ? reach : LEAST_STEP_REACH;
   celd_level_range (levels, &least, &most);
-  step = (most - least) / STEP;
+  step = (most - least) / LEVEL_STEP;
   all  = count_steps (levels, step);
   if (FEW_STEPS * all < (size_t) levels->width + (size_t) levels->height)
     return 1;

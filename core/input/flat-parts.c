@@ -2,7 +2,7 @@
  *
  * Along rows and columns, a line is a short stretch between two changes of colour, and so is each of its soft edges;
  * parts are longer, but for their tips and narrow places.  Of regions, levels and depth of 28 drawings at most 0.42 of
- * all stretches are short, of drawings, grey and coloured, 0.67 at least, where their lines are one pixel wide and hard.
+ * all stretches are short, of drawings, grey and coloured, 0.67 at least, where lines are one pixel wide and hard.
  *
  * Levels and depth are grey, and black where the page is: no drawing on paper has that, and chalk on black has lines.
  *
@@ -13,16 +13,15 @@
 #include <math.h>
 #include <stdlib.h>
 
-#define SHORT_SHARE 40  /* the diagonal divided by the longest stretches that are short (measured, see above) */
-#define LEAST_SHORT 6   /* pixels: the longest short stretches, at least; chosen */
-#define MOST_SHORT  0.5 /* of the stretches of parts (measured, see above) */
-#define CHANGE      3   /* of 255: by how much colours differ at least at a change: slopes of smooth depth have none
-                         * (chosen) */
-#define MOST_SLOPED 0.1 /* of neighbours, in smooth depth with 8 bits; chosen */
-#define PART_SHARE  500 /* the page divided by the least area of a part's colour; chosen */
-#define FEW_PARTS   3   /* fewer may be a silhouette, which is a drawing; chosen */
-#define BLACK       16  /* of 255: the page of levels is darker (chosen), */
-#define MOST_FRAME  0.5 /* along more than this share of the frame (chosen) */
+#define SHORT_SHARE   40  /* the diagonal divided by the longest stretches that are short (measured, see above) */
+#define LEAST_SHORT   6   /* pixels: the longest short stretches, at least; chosen */
+#define MOST_SHORT    0.5 /* of the stretches of parts (measured, see above) */
+#define COLOUR_CHANGE 3   /* of 255: by how much colours differ at least at a change: slopes of depth have none; chosen */
+#define MOST_SLOPED   0.1 /* of neighbours, in smooth depth with 8 bits; chosen */
+#define PART_SHARE    500 /* the page divided by the least area of a part's colour; chosen */
+#define FEW_PARTS     3   /* fewer may be a silhouette, which is a drawing; chosen */
+#define PAGE_BLACK    16  /* of 255: the page of levels is darker (chosen), */
+#define MOST_FRAME    0.5 /* along more than this share of the frame (chosen) */
 
 /* What is transparent has one colour. */
 static int
@@ -53,8 +52,8 @@ add_stretches (const uint8_t *p, size_t step, int n, int longest, Stretches *fou
       const uint8_t *q = p + (size_t) i * step;
       int            change = difference (q - step, q);
 
-      found->sloped += change > 0 && change < CHANGE;
-      if (change < CHANGE)
+      found->sloped += change > 0 && change < COLOUR_CHANGE;
+      if (change < COLOUR_CHANGE)
         continue;
       found->all += last >= 0;
       found->brief += last >= 0 && i - last <= longest;
@@ -81,7 +80,7 @@ is_without_lines (const CeldPaint *paint)
 
 /* ------------------------------------------------------------------ parts */
 
-/* How many colours, of 8 steps a channel, have the area of a part; and the commonest one, of which transparent is one. */
+/* How many colours, of 8 steps a channel, have the area of a part; and the commonest one.  Transparent is a colour. */
 typedef struct { int n; size_t most; bool clear; } Colours;
 
 static Colours
@@ -107,7 +106,7 @@ find_colours (const CeldPaint *paint)
 static bool
 is_black (const uint8_t *p)
 {
-  return p[3] == 255 && p[0] < BLACK && p[1] < BLACK && p[2] < BLACK;
+  return p[3] == 255 && p[0] < PAGE_BLACK && p[1] < PAGE_BLACK && p[2] < PAGE_BLACK;
 }
 
 /* Whether most of the frame is black. */

@@ -291,7 +291,7 @@ bool cli_check_lines           (const char *path, const CeldPlane *ink);     /* 
 bool cli_check_drawing         (const char *path, const CeldDrawing *drawing, bool quiet); /* no photograph */
 bool cli_check_parts           (const char *path, const CeldPaint *art, bool quiet); /* the drawing is no levels */
 bool cli_check_scribbles       (const char *path, const CeldPaint *scribbles); /* no photograph, arrows, levels */
-bool cli_check_strokes         (const char *path, const char *role, const CeldPaint *paint); /* no photograph, regions */
+bool cli_check_strokes         (const char *path, const char *role, const CeldPaint *paint); /* nor regions */
 bool cli_check_no_drawings     (const CliOptions *options, const CliLayers *layers, const CeldPlane *ink);
 bool cli_check_numbers         (const char *path, const CeldPlane *values);  /* all are finite */
 bool cli_check_colours         (const char *path, int width, int height, const float *rgba); /* where they are seen */

@@ -65,6 +65,6 @@ cli_check_strokes (const char *path, const char *role, const CeldPaint *paint)
     return cli_error (_ ("\"%s\" looks like a photograph: what is given with --%s are strokes on a blank layer."), path,
                       role);
   return fills || !celd_is_painted_over (paint) ||
-         cli_error (_ ("\"%s\" is painted all over, as regions and levels are: what is given with --%s are strokes on a "
-                       "blank layer."), path, role);
+         cli_error (_ ("\"%s\" is painted all over, as regions and levels are: what is given with --%s are strokes on "
+                       "a blank layer."), path, role);
 }

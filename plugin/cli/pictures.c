@@ -120,8 +120,8 @@ colours_paint (const Colours *colours, int height, CeldPaint *art)
   return cli_check (art->data ? CELD_OK : CELD_NO_MEMORY);
 }
 
-/* Whether a picture can be a drawing, unless it is said what its lines are.  Beside levels, flat parts can be sprites, or
- * the levels, which cli_check_not_exchanged says. */
+/* Whether a picture can be a drawing, unless it is said what its lines are.  Beside levels, flat parts can be sprites,
+ * or the levels, which cli_check_not_exchanged says. */
 static bool
 check_drawing (const char *path, const CliOptions *options, const CeldPaint *art, const CeldDrawing *drawing)
 {
