@@ -308,6 +308,8 @@ bool cli_check_regions_of (const char *path, const CeldLabels *regions, const Ce
                            const CeldPlane *ink, bool quiet);
 /* Rounds colours to bytes; free data, NULL if there is no memory, with g_free. */
 CeldPaint cli_paint_of (const CeldColours *picture);
+/* Whether a drawing is scribbles; false if there is no memory. */
+bool cli_find_scribbles (const CliLayers *layers, bool *are);
 /* That of two drawings not just one is scribbles. */
 bool cli_check_alike (const CliOptions *options, const CliLayers *first, const CliLayers *second);
 /* That contours have not the lines of the drawing, before they are drawn into it; warns of some that change nothing. */

@@ -93,17 +93,24 @@ check_not_scribbles (const CliOptions *options, const CliLayers *layers)
                                       "as the drawing."), options->input, options->scribbles));
 }
 
-static bool
-is_strokes (const CliLayers *layers)
+/* A small figure in clear colours looks like strokes, too, but has lines that part the page. */
+bool
+cli_find_scribbles (const CliLayers *layers, bool *are)
 {
-  return layers->colours.data && celd_is_coloured_strokes (&layers->colours);
+  bool drawn = true, coloured = layers->colours.data && celd_is_coloured_strokes (&layers->colours);
+  bool good = !coloured || cli_check (celd_may_be_drawing (&layers->colours, &drawn));
+
+  *are = coloured && !drawn;
+  return good;
 }
 
 bool
 cli_check_alike (const CliOptions *options, const CliLayers *first, const CliLayers *second)
 {
-  bool one = is_strokes (first), other = is_strokes (second);
+  bool one, other;
 
+  if (!cli_find_scribbles (first, &one) || !cli_find_scribbles (second, &other))
+    return false;
   return one == other || cli_error (_ ("\"%s\" looks like scribbles and \"%s\" like a drawing: give two drawings."),
                                     one ? options->input : options->target, one ? options->target : options->input);
 }

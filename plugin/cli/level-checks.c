@@ -150,16 +150,19 @@ cli_check_steps (const char *path, const CeldPlane *levels, const CliOptions *op
 {
   CeldPlane lines = { 0 };
   double    share = 1;
+  bool      scribbles = false;
 
   if (!cli_plane_new (ink->width, ink->height, &lines))
     return false;
   find_edges (layers, ink, &lines);
   share = celd_steps_on_lines (levels, &lines);
   g_free (lines.data);
-  if (share < HARDLY_ANY && layers->colours.data && celd_is_coloured_strokes (&layers->colours))
+  if (share < HARDLY_ANY && !cli_find_scribbles (layers, &scribbles))
+    return false;
+  if (scribbles)
     return cli_error ("\"%s\" looks like scribbles: give the line drawing.", drawing);
   if (share < FEW && !options->quiet)
-    cli_say ("The parts of \"%s\" do not end at the lines of \"%s\": give the drawing of the same page.", path,
+    cli_say ("The parts of \"%s\" do not end at the lines of \"%s\": give both of the same page.", path,
              drawing);
   return true;
 }

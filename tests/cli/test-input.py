@@ -646,6 +646,16 @@ class Nonsense(Test):
         self.assertIn('do not end at the lines of "other.png"', self.celdepth(*of_register))
 
     def test_scribbles_as_one_of_two_drawings(self):
+        """A small figure in clear colours is none, beside line art or not."""
+        page = Image.new('RGB', (200, 160), 'white')
+        draw = ImageDraw.Draw(page)
+        for box, fill in (((60, 50, 100, 90), (250, 60, 40)), ((100, 70, 140, 120), (60, 90, 240)),
+                          ((70, 90, 100, 120), (60, 200, 70))):
+            draw.rectangle(box, fill=fill, outline=(60, 20, 0), width=2)
+        page.save(self.path('figure.png'))
+        page.convert('L').point(lambda v: 0 if v < 40 else 255).save(self.path('lines.png'))
+        self.celdepth('register', 'figure.png', 'lines.png', '--warped', 'w.png')
+        os.remove(self.path('w.png'))
         for pair in (('scribbles.png', 'drawing.png'), ('drawing.png', 'scribbles.png')):
             self.fails('register', *pair, '--warped', 'w.png',
                        naming='"scribbles.png" looks like scribbles and "drawing.png" like a drawing: give two drawings')
