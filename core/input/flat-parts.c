@@ -16,7 +16,7 @@
 #define SHORT_SHARE   40  /* the diagonal divided by the longest stretches that are short (measured, see above) */
 #define LEAST_SHORT   6   /* pixels: the longest short stretches, at least; chosen */
 #define MOST_SHORT    0.5 /* of the stretches of parts (measured, see above) */
-#define COLOUR_CHANGE 3   /* of 255: by how much colours differ at least at a change: slopes of depth have none; chosen */
+#define COLOUR_CHANGE 3   /* of 255: by how much colours differ at least at a change: not at slopes of depth; chosen */
 #define MOST_SLOPED   0.1 /* of neighbours, in smooth depth with 8 bits; chosen */
 #define PART_SHARE    500 /* the page divided by the least area of a part's colour; chosen */
 #define FEW_PARTS     3   /* fewer may be a silhouette, which is a drawing; chosen */
