@@ -282,8 +282,7 @@ typedef struct
 
 CeldStatus celd_choice_paint_measure (CeldArrowSearch *search, CeldChoicePaint *paint);
 
-/* The area of unexplained paint near a place, and round a shaft, in square widths. */
-double celd_rest_near (CeldArrowSearch *search, size_t place);
+/* The area of unexplained paint round a shaft, in square widths. */
 double celd_rest_round (CeldArrowSearch *search, const CeldShaft *shaft);
 
 /* ------------------------------------------------------------------ search-meetings.c */

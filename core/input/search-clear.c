@@ -26,7 +26,6 @@
 #define CERTAIN_MOST_REST  1    /* ... to one that is certain, ... */
 #define CERTAIN_MARGIN     6    /* ... for it has so much of a margin, ... */
 #define DOT_MOST_REST      0.25 /* ... or to one with a dot, which is no wider; ... */
-#define TAIL_MOST_REST     0.5  /* ... and where one with a head begins, even if it is next to others, ... */
 #define DOT_ROUND_REST     0.4  /* ... or all round one with a dot, ... */
 #define HEAD_ROUND_REST    0.3  /* ... or with a head, unless its margin ... */
 #define ROUND_MARGIN       3    /* ... is so large */
@@ -194,7 +193,6 @@ why_unclear (const CeldClearness *r, size_t i)
   if (o->mark_cost > (dot ? MOST_OF_DOT : MOST_OF_HEAD))
     return CELD_REASON_ALIKE;
   if (o->cost > MOST_OF_ARROW || s->passed[o->shaft] || celd_chosen_passes_end (s, i) || !is_explained (r, i) ||
-      (!dot && celd_rest_near (r->s, tail) > TAIL_MOST_REST) ||
       ((dot || r->margin[i] < ROUND_MARGIN) &&
        celd_rest_round (r->s, shaft) > (dot ? DOT_ROUND_REST : HEAD_ROUND_REST)))
     return CELD_REASON_MEETING;

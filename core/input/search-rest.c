@@ -131,13 +131,6 @@ rest_at (CeldArrowSearch *s, CeldPoint p, double reach)
 }
 
 double
-celd_rest_near (CeldArrowSearch *s, size_t place)
-{
-  s->tick++;
-  return rest_at (s, s->place[place], REST_ENDS * s->width);
-}
-
-double
 celd_rest_round (CeldArrowSearch *s, const CeldShaft *shaft)
 {
   double rest = 0;
