@@ -303,9 +303,6 @@ bool celd_search_is_passed (const CeldArrowSearch *search, size_t place);
 /* Does arrow i lead through a place where two others do, too?  Three that cross in one place more likely end there. */
 bool celd_chosen_is_crossed_twice (const CeldArrowSearch *search, size_t i);
 
-/* Does it lie on another one for long?  Then one of them may be part of the other. */
-bool celd_chosen_is_on_another (const CeldArrowSearch *search, size_t i);
-
 /* ------------------------------------------------------------------ search-shown.c */
 
 #define CELD_LEAST_OWN 0.8 /* area of the paint of a head or dot that no line explains, in square widths; chosen */

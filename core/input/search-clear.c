@@ -120,9 +120,9 @@ is_any_seen (const CeldClearness *r, size_t i)
 static double
 margin_needed (const CeldClearness *r, size_t i)
 {
-  int    doubts = (r->paint.seen[i] < CELD_LEAST_OWN) + celd_chosen_is_on_another (r->s, i);
-  bool   pass = celd_clear_may_pass (r, i);
-  double more = doubts * DOUBT_MARGIN + (pass ? r->s->style == CELD_ARROW_HEAD ? MAY_PASS_MARGIN : DOUBT_MARGIN : 0);
+  bool   hidden = r->paint.seen[i] < CELD_LEAST_OWN, pass = celd_clear_may_pass (r, i);
+  double more = (hidden ? DOUBT_MARGIN : 0) +
+                (pass ? r->s->style == CELD_ARROW_HEAD ? MAY_PASS_MARGIN : DOUBT_MARGIN : 0);
 
   if (!is_any_seen (r, i))
     return INFINITY;
@@ -165,7 +165,7 @@ why_profile_unclear (const CeldClearness *r, size_t i)
   if (shaft->length < SHORTEST * s->width)
     return CELD_REASON_SHORT;
   return !celd_search_shows_end (s, shaft->place[0]) || !celd_search_shows_end (s, shaft->place[1]) ||
-         celd_chosen_is_crossed_twice (s, i) || celd_chosen_passes_end (s, i) || celd_chosen_is_on_another (s, i) ||
+         celd_chosen_is_crossed_twice (s, i) || celd_chosen_passes_end (s, i) ||
          r->margin[i] < PROFILE_MARGIN ? CELD_REASON_MEETING : CELD_REASON_NONE;
 }
 
@@ -187,7 +187,7 @@ why_unclear (const CeldClearness *r, size_t i)
   if (celd_clear_may_cross (r, i))
     return CELD_REASON_MEETING;
   if (r->agreed[i])
-    return is_explained (r, i) && !celd_chosen_is_on_another (s, i) ? CELD_REASON_NONE : CELD_REASON_MEETING;
+    return is_explained (r, i) ? CELD_REASON_NONE : CELD_REASON_MEETING;
   if (shaft->length < SHORTEST * s->width && (dot || r->margin[i] < SHORT_MARGIN))
     return CELD_REASON_SHORT;
   if (o->mark_cost > (dot ? MOST_OF_DOT : MOST_OF_HEAD))

@@ -1,5 +1,4 @@
-/* How chosen arrows meet: whether something shows that they end, and where they end near others, pass them, or lie on
- * them.
+/* How chosen arrows meet: whether something shows that they end, and where they end near others or pass them.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -21,8 +20,6 @@
 #define PASS_APART_FROM 3   /* ... so far from the ends of the line */
 #define THROUGH         0.8 /* from a line to a place that it leads through ... */
 #define THROUGH_FROM    6   /* ... so far from its ends */
-#define ON_ANOTHER      0.5 /* between lines that lie on each other, ... */
-#define MOST_ON_ANOTHER 6   /* ... for at most so long */
 
 /* An end of a chosen arrow; tip: is it the weak one? */
 typedef struct { CeldPoint way; double value; bool tip; } ChosenEnd;
@@ -145,24 +142,6 @@ celd_chosen_is_crossed_twice (const CeldArrowSearch *s, size_t i)
       for (size_t k = 0; k < s->choice.n && leads_through (s, i, p, THROUGH, THROUGH_FROM); k++)
         n += k != i && leads_through (s, k, p, THROUGH, THROUGH_FROM);
       if (n > 1)
-        return true;
-    }
-  return false;
-}
-
-bool
-celd_chosen_is_on_another (const CeldArrowSearch *s, size_t i)
-{
-  const CeldShaft *a = celd_chosen_shaft (s, i);
-
-  for (size_t k = 0; k < s->choice.n; k++)
-    {
-      const CeldShaft *b = celd_chosen_shaft (s, k);
-      size_t           n = 0;
-
-      for (size_t j = 0; j < a->n && k != i; j++)
-        n += celd_distance_to_shaft (b, a->at[j]) < ON_ANOTHER * s->width;
-      if (n > 1 && (double) (n - 1) * a->length / (double) (a->n - 1) > MOST_ON_ANOTHER * s->width)
         return true;
     }
   return false;
