@@ -7,8 +7,8 @@
  * the paper's label touches that region's outline; else the nearer label.
  *
  * Where an outline ends, its owner has the tip beyond only if the region's paper has a corner there: both sides of the
- * outline meet behind it.  Where the paper goes on straight, a line of another owner leaves the outline; but not inside
- * one region, if its pen is thinner: there the outline runs out into a solid tip.
+ * outline meet behind it.  Where the paper goes on straight, a line of another owner leaves the outline.  Inside one
+ * region whose pen is thinner than the ink it cannot: there the outline runs out into a solid tip.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -125,8 +125,8 @@ is_solid_inside (const CeldContourPens *pens, const CeldEdgePoint *p, const Celd
   return pen->near == pen->far && (own <= 0 || p->thickness > PLAIN_THICKNESS * own + THICKNESS_TOLERANCE);
 }
 
-/* Does the outline of a's owner end between neighbours a and b, so that the line at b would be its tip, or may be that of
- * another owner?  Not at the picture's frame. */
+/* Does the outline of a's owner end between neighbours a and b, so that the line at b, p, would be its tip, or may be
+ * that of another owner?  Not at the picture's frame. */
 static bool
 leaves_outline (const CeldContourPens *pens, const CeldEdgePoint *p, const CeldEdgePen *a, const CeldEdgePen *b)
 {
