@@ -16,6 +16,7 @@
 #define SHORT_SHARE   40  /* the diagonal divided by the longest stretches that are short (measured, see above) */
 #define LEAST_SHORT   6   /* pixels: the longest short stretches, at least; chosen */
 #define MOST_SHORT    0.5 /* of the stretches of parts (measured, see above) */
+#define MOST_SAMPLED  512 /* rows, and columns, that are looked at, spread evenly; chosen */
 #define COLOUR_CHANGE 3   /* of 255: by how much colours differ at least at a change: not at slopes of depth; chosen */
 #define MOST_SLOPED   0.1 /* of neighbours, in smooth depth with 8 bits; chosen */
 #define PART_SHARE    500 /* the page divided by the least area of a part's colour; chosen */
@@ -66,16 +67,18 @@ static bool
 is_without_lines (const CeldPaint *paint)
 {
   int       width = paint->width, height = paint->height;
+  int       across = 1 + (width - 1) / MOST_SAMPLED, down = 1 + (height - 1) / MOST_SAMPLED;
   int       longest = (int) (hypot (width, height) / SHORT_SHARE);
+  size_t    lines = 0, pixels = 0;
   Stretches found = { 0 };
 
   longest = longest > LEAST_SHORT ? longest : LEAST_SHORT;
-  for (int y = 0; y < height; y++)
+  for (int y = 0; y < height; y += down, lines++, pixels += (size_t) width)
     add_stretches (CELD_RGBA (paint, 0, y), 4, width, longest, &found);
-  for (int x = 0; x < width; x++)
+  for (int x = 0; x < width; x += across, lines++, pixels += (size_t) height)
     add_stretches (CELD_RGBA (paint, x, 0), 4 * paint->stride, height, longest, &found);
-  return 2 * found.all > (size_t) width + (size_t) height && (double) found.brief < MOST_SHORT * (double) found.all &&
-         (double) found.sloped < 2 * MOST_SLOPED * width * height;
+  return 2 * found.all > lines && (double) found.brief < MOST_SHORT * (double) found.all &&
+         (double) found.sloped < MOST_SLOPED * (double) pixels;
 }
 
 /* ------------------------------------------------------------------ parts */
