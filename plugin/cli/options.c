@@ -11,19 +11,29 @@
 /* Options without a value. */
 typedef struct { gboolean quiet, progress, directx, watch, help; } CliFlags;
 
+/* Whether a message is about an option that other programs write their one result by. */
+static bool
+is_about_output (const char *message)
+{
+  return g_str_has_suffix (message, " -o") || g_str_has_suffix (message, " --output") || strstr (message, " --output=");
+}
+
 /* Prints why the command line cannot be parsed, and which option was probably meant. */
 static void
-say_error (const GError *error, const CliOptionList *list)
+say_error (const CliCommand *command, const GError *error, const CliOptionList *list)
 {
   const char  *unknown = strstr (error->message, "--"), *nearest = NULL;
   char        *name = unknown ? g_strndup (unknown + 2, strcspn (unknown + 2, "=")) : NULL;
   const char **names = g_new0 (const char *, list->entries->len + 1);
+  bool         known = !g_error_matches (error, G_OPTION_ERROR, G_OPTION_ERROR_UNKNOWN_OPTION);
 
   for (guint i = 0; i < list->entries->len; i++)
     names[i] = g_array_index (list->entries, GOptionEntry, i).long_name;
-  if (g_error_matches (error, G_OPTION_ERROR, G_OPTION_ERROR_UNKNOWN_OPTION) && name)
+  if (!known && name)
     nearest = cli_nearest_name (name, names);
-  if (nearest)
+  if (!known && is_about_output (error->message))
+    cli_say ("%s: each result has an option of its own, such as --%s.", error->message, command->output);
+  else if (nearest)
     cli_say ("%s. Did you mean --%s?", error->message, nearest);
   else
     cli_say ("%s", error->message);
@@ -148,7 +158,7 @@ drop_end_of_options (int *argc, char **argv)
 
 /* Parses the command line with GOption. */
 static bool
-parse_words (CliOptionList *list, int *argc, char ***argv, CliOptions *options)
+parse_words (const CliCommand *command, CliOptionList *list, int *argc, char ***argv, CliOptions *options)
 {
   GOptionContext *context = g_option_context_new (NULL);
   GOptionGroup   *group = g_option_group_new ("main", "", "", options, NULL);
@@ -162,7 +172,7 @@ parse_words (CliOptionList *list, int *argc, char ***argv, CliOptions *options)
   if (good)
     drop_end_of_options (argc, *argv);
   else
-    say_error (error, list);
+    say_error (command, error, list);
   g_clear_error (&error);
   g_option_context_free (context);
   return good;
@@ -197,7 +207,7 @@ parse (const CliCommand *command, int *argc, char ***argv, CliOptions *options)
   cli_list_add (&list, "Other", (GOptionEntry) {
     "help", 'h', 0, G_OPTION_ARG_NONE, &flags.help, "print this text", NULL });
   good = check_values (&list, *argc, *argv) && take_switches (&list, argc, *argv) &&
-         parse_words (&list, argc, argv, options);
+         parse_words (command, &list, argc, argv, options);
   if (good && flags.help)
     cli_help_print (command, &list);
   options->help     = flags.help;
@@ -243,7 +253,8 @@ check_input (const CliCommand *command, int argc, char **argv, CliOptions *optio
   if (!options->clip && (argc < 2 || (argc < 3 && command->second)))
     return cli_error ("%s.", inputs[input_of (argc < 2 ? command->input : command->second)].missing);
   if (!many && argc > (command->second ? 3 : 2))
-    return cli_error ("Give %s%s.", inputs[input_of (command->second ? command->second : command->input)].number,
+    return cli_error ("\"%s\" is too much: give %s%s.", argv[command->second ? 3 : 2],
+                      inputs[input_of (command->second ? command->second : command->input)].number,
                       command->step == CLI_POPUP ? ", or --output-dir for many pages" : "");
   options->input  = g_strdup (argv[1]);
   options->target = argc > 2 ? g_strdup (argv[2]) : NULL;

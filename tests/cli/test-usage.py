@@ -46,9 +46,12 @@ class Usage(Test):
             with self.subTest(step):
                 self.assertRegex(self.celdepth(step, code=2), 'The .* (is|are) missing')
                 self.wrong(step, 'a.png', '--nonsense', naming='--nonsense')
-        self.wrong('popup', 'a.png', 'b.png', '--depth', 'c.png', naming='Give one drawing, or --output-dir for many pages.')
-        self.wrong('shade', 'a.png', 'b.png', '--shaded', 'c.png', naming='Give one file of levels.')
-        self.wrong('register', 'a.png', 'b.png', 'c.png', '--warped', 'd.png', naming='Give two drawings.')
+        self.wrong('popup', 'a.png', 'b.png', '--depth', 'c.png',
+                   naming='"b.png" is too much: give one drawing, or --output-dir for many pages.')
+        self.wrong('shade', 'a.png', 'b.png', '--shaded', 'c.png', naming='"b.png" is too much: give one file of levels.')
+        self.wrong('register', 'a.png', 'b.png', 'c.png', '--warped', 'd.png', naming='"c.png" is too much: give two drawings.')
+        for option in ('-o', '--output', '--output=b.png'):
+            self.wrong('segment', 'a.png', option, 'b.png', naming='each result has an option of its own, such as --labels.')
         self.wrong('popup', 'a.png', naming='nothing to write')
         self.wrong('segment', 'a.png', naming='such as --labels')
         self.wrong('enhance', 'a.npy', naming='such as --enhanced')
