@@ -125,16 +125,6 @@ has_black_page (const CeldPaint *paint)
   return black > MOST_FRAME * 2 * (width + height);
 }
 
-static bool
-is_opaque (const CeldPaint *paint)
-{
-  for (int y = 0; y < paint->height; y++)
-    for (int x = 0; x < paint->width; x++)
-      if (CELD_RGBA (paint, x, y)[3] < 255)
-        return false;
-  return true;
-}
-
 CeldFlatParts
 celd_flat_parts (const CeldPaint *paint)
 {
@@ -149,7 +139,7 @@ celd_is_painted_over (const CeldPaint *paint)
   CeldFlatParts parts = celd_flat_parts (paint);
   Colours       found = { 0 };
 
-  if (parts == CELD_PARTS_COLOURED && is_opaque (paint))
+  if (parts == CELD_PARTS_COLOURED && celd_paint_is_opaque (paint))
     found = find_colours (paint);
   return parts == CELD_PARTS_LEVELS || found.clear ||
          (found.n && 2 * found.most < (size_t) paint->width * (size_t) paint->height);

@@ -34,6 +34,8 @@
 
 /* paint-kinds.c: the difference of the largest and the least channel of a pixel. */
 int celd_hue_of (const uint8_t *p);
+/* Whether a picture is transparent nowhere. */
+bool celd_paint_is_opaque (const CeldPaint *paint);
 /* Whether a picture that is not empty is grey, as inks are. */
 bool celd_is_grey (const CeldPaint *paint);
 /* Whether something in clear colours is painted, be it a few thin strokes. */

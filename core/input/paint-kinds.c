@@ -67,8 +67,8 @@ blank_share (const CeldPaint *paint, bool *light)
   return (double) most / ((double) paint->width * paint->height);
 }
 
-static bool
-is_opaque (const CeldPaint *paint)
+bool
+celd_paint_is_opaque (const CeldPaint *paint)
 {
   for (int y = 0; y < paint->height; y++)
     for (int x = 0; x < paint->width; x++)
@@ -84,7 +84,7 @@ celd_are_scribbles (const CeldPaint *paint)
   bool   small = side < TELLING_SIDE, light;
   double blank;
 
-  if (side < SMALL_SIDE || flat_share (paint) >= LEAST_FLAT || (small && !is_opaque (paint)))
+  if (side < SMALL_SIDE || flat_share (paint) >= LEAST_FLAT || (small && !celd_paint_is_opaque (paint)))
     return true;
   blank = blank_share (paint, &light);
   return blank >= (small ? SMALL_BLANK : LEAST_BLANK) && (light || !celd_is_grey (paint));
