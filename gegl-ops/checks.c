@@ -11,6 +11,20 @@
 #include "problems.h"
 #include "translate.h"
 
+/* Whether the drawing has lines between its parts, which levels and depth have not. */
+static gboolean
+check_parts (CeldOp *op, GeglBuffer *buffer)
+{
+  CeldPaint paint;
+
+  if (!celd_op_new_paint (op, &paint))
+    return FALSE;
+  celd_buffer_read_paint (buffer, &op->picture, &paint);
+  return celd_flat_parts (&paint) != CELD_PARTS_LEVELS ||
+         celd_op_fail (op, _ ("The drawing looks like levels or depth. Choose another layer; if it is a drawing, say with "
+                              "'Ink' what its lines are."));
+}
+
 /* The drawing as it is, not the lines of a coloured one. */
 static gboolean
 check_lines (CeldOp *op, GeglBuffer *buffer, gboolean *unsure)
@@ -60,7 +74,8 @@ check (CeldOp *op, const char *pad, const CeldDrawing *drawing, gboolean in_sess
   if (input != good->input)
     {
       *good = (CeldGoodDrawing) { 0, FALSE };
-      if ((op->settings.ink == CELD_INK_AUTO && !check_lines (op, celd_op_buffer (op, pad), &good->unsure)) ||
+      if ((op->settings.ink == CELD_INK_AUTO && (!check_parts (op, celd_op_buffer (op, pad)) ||
+                                                 !check_lines (op, celd_op_buffer (op, pad), &good->unsure))) ||
           (in_session && !check_ink (op)))
         return FALSE;
       good->input = input;
@@ -103,6 +118,9 @@ celd_op_check_scribbles (CeldOp *op, const char *drawing_pad, const CeldPaint *s
   if (!celd_are_scribbles (scribbles))
     return celd_op_fail (op, _ ("The scribbles look like a photograph: scribbles are strokes in flat colours on a "
                                 "blank layer. Choose another layer."));
+  if (celd_flat_parts (scribbles) == CELD_PARTS_LEVELS)
+    return celd_op_fail (op, _ ("The scribbles look like levels or depth: scribbles are strokes in clear colours, one "
+                                "over each part. Choose another layer."));
   if (!celd_op_try (op, celd_may_be_drawing (scribbles, &drawn)) ||
       (drawn && !find_mix_up (op, drawing_pad, scribbles, &mix_up)))
     return FALSE;

@@ -56,6 +56,9 @@ check_scribbles (const CeldPipeline *p, const CeldPipelineInput *input, GError *
   if (good && !celd_are_scribbles (&scribbles))
     good = celd_pipeline_fail (error, _ ("The layer with the scribbles looks like a photograph: scribbles are "
                                          "strokes in flat colours on a blank layer. Choose another layer."));
+  if (good && celd_flat_parts (&scribbles) == CELD_PARTS_LEVELS)
+    good = celd_pipeline_fail (error, _ ("The layer with the scribbles looks like levels or depth: scribbles are strokes "
+                                         "in clear colours, one over each part. Choose another layer."));
   if (good)
     good = celd_pipeline_try (find_mix_up (p, input, &scribbles, &mix_up), error);
   if (good && mix_up == CELD_LAYERS_SAME)
@@ -72,9 +75,24 @@ check_scribbles (const CeldPipeline *p, const CeldPipelineInput *input, GError *
   return good;
 }
 
+/* Whether the drawing has lines between its parts, which levels and depth have not. */
+static gboolean
+check_parts (const CeldPipeline *p, const CeldPipelineInput *input, GError **error)
+{
+  CeldPaint     drawing = { 0 };
+  CeldStatus    status = read_paint (p, input, CELD_LAYER_DRAWING, &drawing);
+  CeldFlatParts parts = status == CELD_OK ? celd_flat_parts (&drawing) : CELD_PARTS_NONE;
+
+  g_free (drawing.data);
+  return celd_pipeline_try (status, error) &&
+         (parts != CELD_PARTS_LEVELS ||
+          celd_pipeline_fail (error, _ ("The layer with the drawing looks like levels or depth. Choose another layer; if "
+                                        "it is a drawing, say with the setting 'Ink' what its lines are.")));
+}
+
 /* The drawing as it is, not the lines of a coloured one. */
 static gboolean
-check_drawing (CeldPipeline *p, const CeldPipelineInput *input, GError **error)
+check_clarity (CeldPipeline *p, const CeldPipelineInput *input, GError **error)
 {
   const CeldPipelineLayer *layer = &input->layer[CELD_LAYER_DRAWING];
   GeglRectangle            rect = celd_pipeline_rectangle (layer, p->width, p->height);
@@ -110,7 +128,8 @@ celd_pipeline_check_layers (CeldPipeline *p, const CeldPipelineInput *input, gui
     return FALSE;
   if (p->settings.flats)
     return TRUE;
-  return (!scribbles || check_scribbles (p, input, error)) && (!drawing || check_drawing (p, input, error));
+  return (!scribbles || check_scribbles (p, input, error)) &&
+         (!drawing || (check_parts (p, input, error) && check_clarity (p, input, error)));
 }
 
 static gboolean

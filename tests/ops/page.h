@@ -47,6 +47,15 @@ page_value (int x, int y)
   return roundf (255 * fmaxf (0, fminf (1, away))) / 255;
 }
 
+/* Levels of pixel i: three parts on a black page. */
+static inline float
+level_at (int i)
+{
+  int x = i % WIDTH, y = i / WIDTH;
+
+  return x < 12 || x >= 108 || y < 10 || y >= 70 ? 0 : x < 40 ? 0.35f : x < 80 ? 0.7f : 1;
+}
+
 /* A surface in all greys, other ones in other channels. */
 static inline float
 surface_at (int i, int channel)

@@ -109,6 +109,26 @@ photographs_are_no_scribbles (void)
   g_object_unref (photograph);
 }
 
+static void
+levels_are_no_drawings_and_no_scribbles (void)
+{
+  static float pixels[PIXELS];
+  GeglBuffer  *levels;
+
+  for (int i = 0; i < PIXELS; i++)
+    pixels[i] = level_at (i);
+  levels = page_buffer ("Y' u8", "Y' float", pixels);
+  for (size_t i = 0; i < G_N_ELEMENTS (finders); i++)
+    {
+      CHECK (refuses (finders[i], (Pads) { { levels, scribbles } }, "The drawing looks like levels or depth"));
+      CHECK (refuses (finders[i], (Pads) { { drawing, levels } }, "The scribbles look like levels or depth"));
+    }
+  be_quiet (); /* who says what the lines are is believed */
+  operate ("celdepth:popup", (Pads) { { levels, scribbles, arrows } }, "RGBA float", result, "ink", CELD_INK_DARK, NULL);
+  CHECK (!SAYS ("levels or depth"));
+  g_object_unref (levels);
+}
+
 /* A page parted into squares. */
 static GeglBuffer *
 squares (void)
@@ -283,6 +303,7 @@ main (int argc, char **argv)
   RUN (unclear_lines_are_told);
   RUN (photographs_have_no_steps);
   RUN (photographs_are_no_scribbles);
+  RUN (levels_are_no_drawings_and_no_scribbles);
   RUN (exchanged_layers_are_noticed);
   RUN (coloured_drawings_are_no_scribbles);
   RUN (drawings_are_no_strokes);

@@ -348,11 +348,14 @@ other_layers_than_meant_are_refused (void)
 {
   static float      grey[PIXELS], colour[3 * PIXELS];
   CeldPipelineInput input = page_input ();
-  GeglBuffer       *surface, *photograph, *coloured, *squares;
+  GeglBuffer       *surface, *photograph, *coloured, *squares, *parts;
 
   for (int i = 0; i < PIXELS; i++)
     grey[i] = i % WIDTH % 24 < 2 || i / WIDTH % 24 < 2 ? 0 : 1;
   squares = page_buffer ("Y' u8", "Y' float", grey);
+  for (int i = 0; i < PIXELS; i++)
+    grey[i] = level_at (i);
+  parts = page_buffer ("Y' u8", "Y' float", grey);
   for (int i = 0; i < 3 * PIXELS; i++)
     {
       colour[i] = surface_at (i / 3, i % 3);
@@ -367,6 +370,14 @@ other_layers_than_meant_are_refused (void)
   input = page_input ();
   input.layer[CELD_LAYER_SCRIBBLES].buffer = photograph;
   CHECK (refused (&input, "the scribbles looks like a photograph"));
+  input.layer[CELD_LAYER_SCRIBBLES].buffer = parts;
+  CHECK (refused (&input, "the scribbles looks like levels or depth"));
+  input.layer[CELD_LAYER_DRAWING].buffer = parts;
+  input.layer[CELD_LAYER_SCRIBBLES].buffer = scribbles;
+  CHECK (refused (&input, "the drawing looks like levels or depth"));
+  input.settings.ink = CELD_INK_DARK;
+  CHECK (!refused (&input, "levels or depth"));
+  input = page_input ();
   input.layer[CELD_LAYER_SCRIBBLES].buffer = squares;
   CHECK (refused (&input, "chosen as scribbles looks like a drawing"));
   input.layer[CELD_LAYER_DRAWING].buffer = scribbles;
@@ -384,6 +395,7 @@ other_layers_than_meant_are_refused (void)
   g_object_unref (surface);
   g_object_unref (photograph);
   g_object_unref (squares);
+  g_object_unref (parts);
 }
 
 /* The drawing in place of strokes, also once it takes the place of good ones; its colours may be scribbles. */
