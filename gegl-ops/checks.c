@@ -20,7 +20,7 @@ check_parts (CeldOp *op, GeglBuffer *buffer)
   if (!celd_op_new_paint (op, &paint))
     return FALSE;
   celd_buffer_read_paint (buffer, &op->picture, &paint);
-  return celd_flat_parts (&paint) != CELD_PARTS_LEVELS ||
+  return !celd_looks_like_levels (&paint) ||
          celd_op_fail (op, _ ("The drawing looks like levels or depth. Choose another layer; if it is a drawing, say with "
                               "'Ink' what its lines are."));
 }
@@ -118,7 +118,7 @@ celd_op_check_scribbles (CeldOp *op, const char *drawing_pad, const CeldPaint *s
   if (!celd_are_scribbles (scribbles))
     return celd_op_fail (op, _ ("The scribbles look like a photograph: scribbles are strokes in flat colours on a "
                                 "blank layer. Choose another layer."));
-  if (celd_flat_parts (scribbles) == CELD_PARTS_LEVELS)
+  if (celd_looks_like_levels (scribbles))
     return celd_op_fail (op, _ ("The scribbles look like levels or depth: scribbles are strokes in clear colours, one "
                                 "over each part. Choose another layer."));
   if (!celd_op_try (op, celd_may_be_drawing (scribbles, &drawn)) ||

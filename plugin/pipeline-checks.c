@@ -56,7 +56,7 @@ check_scribbles (const CeldPipeline *p, const CeldPipelineInput *input, GError *
   if (good && !celd_are_scribbles (&scribbles))
     good = celd_pipeline_fail (error, _ ("The layer with the scribbles looks like a photograph: scribbles are "
                                          "strokes in flat colours on a blank layer. Choose another layer."));
-  if (good && celd_flat_parts (&scribbles) == CELD_PARTS_LEVELS)
+  if (good && celd_looks_like_levels (&scribbles))
     good = celd_pipeline_fail (error, _ ("The layer with the scribbles looks like levels or depth: scribbles are strokes "
                                          "in clear colours, one over each part. Choose another layer."));
   if (good)
@@ -79,13 +79,13 @@ check_scribbles (const CeldPipeline *p, const CeldPipelineInput *input, GError *
 static gboolean
 check_parts (const CeldPipeline *p, const CeldPipelineInput *input, GError **error)
 {
-  CeldPaint     drawing = { 0 };
-  CeldStatus    status = read_paint (p, input, CELD_LAYER_DRAWING, &drawing);
-  CeldFlatParts parts = status == CELD_OK ? celd_flat_parts (&drawing) : CELD_PARTS_NONE;
+  CeldPaint  drawing = { 0 };
+  CeldStatus status = read_paint (p, input, CELD_LAYER_DRAWING, &drawing);
+  bool       levels = status == CELD_OK && celd_looks_like_levels (&drawing);
 
   g_free (drawing.data);
   return celd_pipeline_try (status, error) &&
-         (parts != CELD_PARTS_LEVELS ||
+         (!levels ||
           celd_pipeline_fail (error, _ ("The layer with the drawing looks like levels or depth. Choose another layer; if "
                                         "it is a drawing, say with the setting 'Ink' what its lines are.")));
 }

@@ -65,6 +65,8 @@ CELD_API CeldStatus celd_may_be_drawing (const CeldPaint *scribbles, bool *may_b
  * less than three colours are neither. */
 typedef enum { CELD_PARTS_NONE, CELD_PARTS_COLOURED, CELD_PARTS_LEVELS } CeldFlatParts;
 CELD_API CeldFlatParts celd_flat_parts (const CeldPaint *paint);
+/* Whether it is CELD_PARTS_LEVELS, which takes less time to tell. */
+CELD_API bool celd_looks_like_levels (const CeldPaint *paint);
 /* Whether such parts leave no page blank, so that they are no strokes. */
 CELD_API bool celd_is_painted_over (const CeldPaint *paint);
 

@@ -125,12 +125,23 @@ has_black_page (const CeldPaint *paint)
   return black > MOST_FRAME * 2 * (width + height);
 }
 
+static bool
+are_parts (const CeldPaint *paint)
+{
+  return is_without_lines (paint) && find_colours (paint).n >= FEW_PARTS;
+}
+
+/* The frame tells most other pictures at once. */
+bool
+celd_looks_like_levels (const CeldPaint *paint)
+{
+  return has_black_page (paint) && celd_is_grey (paint) && are_parts (paint);
+}
+
 CeldFlatParts
 celd_flat_parts (const CeldPaint *paint)
 {
-  if (!is_without_lines (paint) || find_colours (paint).n < FEW_PARTS)
-    return CELD_PARTS_NONE;
-  return celd_is_grey (paint) && has_black_page (paint) ? CELD_PARTS_LEVELS : CELD_PARTS_COLOURED;
+  return celd_looks_like_levels (paint) ? CELD_PARTS_LEVELS : are_parts (paint) ? CELD_PARTS_COLOURED : CELD_PARTS_NONE;
 }
 
 bool

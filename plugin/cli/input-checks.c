@@ -267,7 +267,7 @@ cli_warn_of_art (const char *path, const CeldColours *art, bool linear)
   good = good && cli_check (paint.data ? CELD_OK : CELD_NO_MEMORY);
   if (good && is_blank (&paint))
     cli_say ("\"%s\" is blank, or of one colour: give the drawing in colours, with its lines or without.", path);
-  else if (good && celd_flat_parts (&paint) == CELD_PARTS_LEVELS)
+  else if (good && celd_looks_like_levels (&paint))
     cli_say ("\"%s\" looks like levels or depth: give the drawing in colours, with its lines or without.", path);
   g_free (encoded.data);
   g_free (paint.data);

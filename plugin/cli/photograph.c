@@ -48,7 +48,7 @@ cli_check_scribbles (const char *path, const CeldPaint *scribbles)
   if (!celd_are_scribbles (scribbles))
     return cli_error (_ ("\"%s\" looks like a photograph: scribbles are strokes in flat colours on a blank layer."),
                       path);
-  if (celd_flat_parts (scribbles) == CELD_PARTS_LEVELS)
+  if (celd_looks_like_levels (scribbles))
     return cli_error (_ ("\"%s\" looks like levels or depth: scribbles are strokes in clear colours, one over each "
                          "part."), path);
   return cli_check (celd_are_arrows (scribbles, NULL, &arrows)) &&
