@@ -148,10 +148,10 @@ bool
 celd_is_painted_over (const CeldPaint *paint)
 {
   CeldFlatParts parts = celd_flat_parts (paint);
-  Colours       found = { 0 };
+  Colours       found;
 
-  if (parts == CELD_PARTS_COLOURED && celd_paint_is_opaque (paint))
-    found = find_colours (paint);
-  return parts == CELD_PARTS_LEVELS || found.clear ||
-         (found.n && 2 * found.most < (size_t) paint->width * (size_t) paint->height);
+  if (parts != CELD_PARTS_COLOURED || !celd_paint_is_opaque (paint))
+    return parts == CELD_PARTS_LEVELS;
+  found = find_colours (paint);
+  return found.clear || 2 * found.most < (size_t) paint->width * (size_t) paint->height;
 }

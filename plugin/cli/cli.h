@@ -8,7 +8,7 @@
  *   effects.c   options in vain                 outputs.c, endings.c  what may be written
  *   help.c      --help of a sub-command         streams.c   "-": standard input and output
  *   input.c     reads a drawing and its layers  text.c      relations as text, text files
- *   input-checks.c, photograph.c  refuse what makes no sense
+ *   input-checks.c, picture-kinds.c  refuse what makes no sense
  *   session.c   sets a session's input          report.c    --report
  *   route.c     for popup and segment           messages.c  messages on stderr
  *   step.c      for order, expand, smooth,      run.c       progress, cancelling, timings
@@ -282,7 +282,7 @@ bool cli_layer_read (const char *path, const char *role, CliLayers *layers, Celd
 bool cli_art_read (const CliOptions *options, const char *input, const char *path, bool linear, CliLayers *layers,
                    CeldColours *art);
 
-/* ------------------------------------------------------------------ input-checks.c, photograph.c */
+/* ------------------------------------------------------------------ input-checks.c, picture-kinds.c */
 
 /* All print why and what to do instead if they are false. */
 bool cli_check_different_files (const CliOptions *options);                  /* each layer has its own file */
