@@ -253,7 +253,7 @@ check_input (const CliCommand *command, int argc, char **argv, CliOptions *optio
   if (!options->clip && (argc < 2 || (argc < 3 && command->second)))
     return cli_error ("%s.", inputs[input_of (argc < 2 ? command->input : command->second)].missing);
   if (!many && argc > (command->second ? 3 : 2))
-    return cli_error ("\"%s\" is too much: give %s%s.", argv[command->second ? 3 : 2],
+    return cli_error ("\"%s\" is one too many: give %s%s.", argv[command->second ? 3 : 2],
                       inputs[input_of (command->second ? command->second : command->input)].number,
                       command->step == CLI_POPUP ? ", or --output-dir for many pages" : "");
   options->input  = g_strdup (argv[1]);

@@ -91,7 +91,7 @@ class Register(Test):
         self.register('--displacement', 'd.png', code=2)
         self.register(code=2)
         self.assertIn('overwrite', self.register('--warped', 'two.png', code=2))
-        self.assertIn('"three.png" is too much: give two drawings.', self.celdepth(
+        self.assertIn('"three.png" is one too many: give two drawings.', self.celdepth(
             'register', 'one.png', 'two.png', 'three.png', '--warped', 'w.png', code=2))
         self.fails('register', 'one.png', 'drawing.png', '--warped', 'w.png', naming='pixels')
         self.fails('register', 'one.png', 'none.png', '--warped', 'w.png', naming='none.png')

@@ -47,9 +47,9 @@ class Usage(Test):
                 self.assertRegex(self.celdepth(step, code=2), 'The .* (is|are) missing')
                 self.wrong(step, 'a.png', '--nonsense', naming='--nonsense')
         self.wrong('popup', 'a.png', 'b.png', '--depth', 'c.png',
-                   naming='"b.png" is too much: give one drawing, or --output-dir for many pages.')
-        self.wrong('shade', 'a.png', 'b.png', '--shaded', 'c.png', naming='"b.png" is too much: give one file of levels.')
-        self.wrong('register', 'a.png', 'b.png', 'c.png', '--warped', 'd.png', naming='"c.png" is too much: give two drawings.')
+                   naming='"b.png" is one too many: give one drawing, or --output-dir for many pages.')
+        self.wrong('shade', 'a.png', 'b.png', '--shaded', 'c.png', naming='"b.png" is one too many: give one file of levels.')
+        self.wrong('register', 'a.png', 'b.png', 'c.png', '--warped', 'd.png', naming='"c.png" is one too many: give two drawings.')
         for option in ('-o', '--output', '--output=b.png'):
             self.wrong('segment', 'a.png', option, 'b.png', naming='each result has an option of its own, such as --labels.')
         self.wrong('popup', 'a.png', naming='nothing to write')
