@@ -1,17 +1,8 @@
-/* Where the artist's strokes lie: how much of each falls on which part of the drawing, and which parts of it are
- * spills.
+/* Where the artist's strokes lie: how much of each falls on which part of the drawing.
  *
  * Runs of seeds are cut where basins meet.  The cost of everything here is the number of these pieces, whatever the
  * size of the picture.  Finding the basins and the paper under a run takes longest, because it is scattered memory
  * access; so the pieces of the last solve are reused.
- *
- * A soft stroke may run on through a contour.  Its pixels behind the contour say nothing about the region there, but
- * would outweigh the cost of cutting that region at a narrow place.  So the overlap of a stroke with a component is
- * weighed by the odds that the stroke is meant for it: the stroke's pixels there to those elsewhere, times the pixels
- * of its label there to those of others.  Below LEAST_ODDS, or LESSER_ODDS where other paint outweighs the label's, the
- * overlap is a spill and is ignored.  If correct paint outweighs foreign paint 3:1, this finds every spill of a stroke
- * that has a quarter of its paint outside the component; a label alone in its component, a stroke within one component,
- * or where a stroke is most likely meant, is never a spill.  What other paint cut off a stroke is weighed as part of it.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -20,11 +11,7 @@
 #include "segment/basins.h"
 #include "segment/task.h"
 
-#include <math.h>
 #include <stdlib.h>
-
-#define LEAST_ODDS  0.5 /* of being meant, below which an overlap is a spill, ... */
-#define LESSER_ODDS 1   /* ... and where other labels have more paint (both chosen) */
 
 /* ------------------------------------------------------------------ connected strokes */
 
@@ -154,8 +141,8 @@ gather_pieces (const CeldSegmentTask *task, CeldStrokes *strokes)
 
 /* ------------------------------------------------------------------ overlaps */
 
-static int
-compare_overlaps (const void *a, const void *b)
+int
+celd_stroke_overlap_compare (const void *a, const void *b)
 {
   const CeldStrokeOverlap *p = a, *q = b;
 
@@ -203,7 +190,7 @@ add_part (uint32_t part, const size_t *sorted, size_t n, size_t *in_part, CeldSt
       in_part[strokes->overlap[i].stroke] = 0;
     }
   if (strokes->n > first + 1)
-    qsort (strokes->overlap + first, strokes->n - first, sizeof *strokes->overlap, compare_overlaps);
+    qsort (strokes->overlap + first, strokes->n - first, sizeof *strokes->overlap, celd_stroke_overlap_compare);
   return CELD_OK;
 }
 
@@ -275,112 +262,4 @@ celd_strokes_keep (const CeldSegmentTask *task, CeldStrokes *strokes)
       *strokes = (CeldStrokes) { 0 };
     }
   celd_strokes_clear (strokes);
-}
-
-/* ------------------------------------------------------------------ spills */
-
-/* Finds the odds of the overlaps first .. last - 1, which are those of one component, and which may be spills. */
-static void
-find_odds (CeldStrokes *strokes, size_t first, size_t last)
-{
-  double all = 0;
-
-  for (size_t i = first; i < last; i++)
-    all += (double) strokes->overlap[i].pixels;
-  for (size_t i = first, j; i < last; i = j)
-    {
-      double mine = 0;
-
-      for (j = i; j < last && strokes->overlap[j].label == strokes->overlap[i].label; j++)
-        mine += (double) strokes->overlap[j].pixels;
-      for (size_t k = i; k < j; k++)
-        {
-          CeldStrokeOverlap *o = &strokes->overlap[k];
-          double             here = (double) o->pixels, elsewhere = (double) strokes->total[o->stroke] - here;
-          double             against = elsewhere * (all - mine);
-
-          o->odds  = against > 0 ? here * mine / against : INFINITY;
-          o->spill = o->odds < (mine < all - mine ? LESSER_ODDS : LEAST_ODDS);
-        }
-    }
-}
-
-/* Marks the spills; has_spill[k]: stroke k has any.  `best` is work space, 0 for all strokes. */
-static void
-find_spills (CeldStrokes *strokes, double *best, bool *has_spill)
-{
-  for (size_t i = 0, j; i < strokes->n; i = j)
-    {
-      for (j = i; j < strokes->n && strokes->overlap[j].part == strokes->overlap[i].part; j++)
-        ;
-      find_odds (strokes, i, j);
-    }
-  for (size_t i = 0; i < strokes->n; i++)
-    best[strokes->overlap[i].stroke] = fmax (best[strokes->overlap[i].stroke], strokes->overlap[i].odds);
-  for (size_t i = 0; i < strokes->n; i++)
-    {
-      CeldStrokeOverlap *o = &strokes->overlap[i];
-
-      o->spill &= o->odds < best[o->stroke];
-      has_spill[o->stroke] |= o->spill;
-    }
-}
-
-bool
-celd_stroke_piece_is_spill (const CeldSegmentTask *task, const CeldStrokePiece *piece)
-{
-  CeldStrokeOverlap        key = { task->basins->component[piece->basin], piece->label, piece->stroke, 0, 0, false };
-  const CeldStrokeOverlap *overlap = bsearch (&key, task->painted.overlap, task->painted.n, sizeof key,
-                                              compare_overlaps);
-
-  return overlap && overlap->spill;
-}
-
-CeldStatus
-celd_stroke_piece_remove (CeldSegmentTask *task, const CeldStrokePiece *piece)
-{
-  const float *ink = &CELD_AT (task->ink, 0, piece->y);
-  CeldStatus   status = CELD_OK;
-
-  for (int x = piece->x, end; x < piece->end && status == CELD_OK; x = end)
-    {
-      bool paper = celd_is_paper (ink[x]);
-
-      for (end = x + 1; end < piece->end && celd_is_paper (ink[end]) == paper; end++)
-        ;
-      if (paper)
-        status = celd_seed_rows_paint (&task->seeds, piece->y, x, end, 0);
-    }
-  return status;
-}
-
-CeldStatus
-celd_spills_remove (const CeldHost *host, CeldSegmentTask *task)
-{
-  const uint32_t *component = task->basins->component;
-  CeldStrokes    *strokes = &task->painted;
-  double         *best;
-  bool           *has_spill; /* most strokes have none: their pieces need no look-up */
-  CeldStatus      status = celd_strokes_new (task, NULL, strokes);
-
-  if (status == CELD_OK && !celd_task_all_hard (task))
-    status = celd_strokes_join_severed (task, strokes);
-  if (status == CELD_OK)
-    status = celd_strokes_overlap (task->basins, component, strokes);
-  if (status != CELD_OK || celd_task_all_hard (task))
-    return status;
-  best      = celd_alloc0 (strokes->n_strokes, sizeof *best);
-  has_spill = celd_alloc0 (strokes->n_strokes, sizeof *has_spill);
-  status    = best && has_spill ? CELD_OK : CELD_NO_MEMORY;
-  if (status == CELD_OK)
-    find_spills (strokes, best, has_spill);
-  for (size_t i = 0; i < strokes->n_pieces && status == CELD_OK; i++)
-    if (has_spill[strokes->piece[i].stroke] && celd_stroke_piece_is_spill (task, &strokes->piece[i]))
-      {
-        task->spilled = true;
-        status = celd_stroke_piece_remove (task, &strokes->piece[i]);
-      }
-  celd_free (best);
-  celd_free (has_spill);
-  return status == CELD_OK ? celd_progress (host, 1) : status;
 }

@@ -56,7 +56,8 @@ CeldStatus celd_labelling_measure (const CeldLabelling *labelling, const CeldBas
 /* ------------------------------------------------------------------ records */
 
 /* How many pixels of paper a connected stroke covers in one part of the drawing (a component, enclosure or merged
- * basin).  `odds` of being meant for it, and `spill`: see strokes.c; 0 until spills are sought. */
+ * basin).  `odds` of being meant for it, in those that are just enough, and `spill`: see spills.c; 0 until spills are
+ * sought. */
 typedef struct { uint32_t part, label, stroke; size_t pixels; double odds; bool spill; } CeldStrokeOverlap;
 
 /* The pixels x .. end - 1 of row y, of one stroke and in one basin.  `paper`: how many of them are paper.  `stroke`:
@@ -147,6 +148,11 @@ void celd_strokes_keep (const CeldSegmentTask *task, CeldStrokes *strokes);
 
 /* Computes the overlaps with these parts in place of the present ones. */
 CeldStatus celd_strokes_overlap (const CeldBasins *basins, const uint32_t *part, CeldStrokes *strokes);
+
+/* The order of overlaps: by part, label, stroke; for qsort and bsearch. */
+int celd_stroke_overlap_compare (const void *a, const void *b);
+
+/* ------------------------------------------------------------------ spills.c */
 
 /* Removes the seeds of a stroke piece that lie on paper. */
 CeldStatus celd_stroke_piece_remove (CeldSegmentTask *task, const CeldStrokePiece *piece);

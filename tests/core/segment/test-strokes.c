@@ -86,9 +86,11 @@ runs_are_cut_where_basins_meet (void)
 
 /* ------------------------------------------------------------------ the same by pixels */
 
-/* The odds that a stroke is meant for a component in which it has paint; *lesser: other paint outweighs the label's. */
+/* The odds that a stroke is meant for a component in which it has paint, as multiples of the least; spills speak for no
+ * label. */
 static double
-slow_odds (const CeldLabels *painted, const CeldLabels *component, const uint32_t stroke[W * H], int p, bool *lesser)
+slow_odds (const CeldLabels *painted, const CeldLabels *component, const uint32_t stroke[W * H],
+           const bool spill[W * H], int p)
 {
   double here = 0, elsewhere = 0, mine = 0, others = 0;
 
@@ -96,29 +98,47 @@ slow_odds (const CeldLabels *painted, const CeldLabels *component, const uint32_
     if (painted->data[q] && component->data[q] == component->data[p])
       {
         here   += stroke[q] == stroke[p];
-        mine   += painted->data[q] == painted->data[p];
-        others += painted->data[q] != painted->data[p];
+        mine   += !spill[q] && painted->data[q] == painted->data[p];
+        others += !spill[q] && painted->data[q] != painted->data[p];
       }
     else
       elsewhere += component->data[q] && stroke[q] == stroke[p];
-  *lesser = mine < others;
-  return elsewhere * others > 0 ? here * mine / (elsewhere * others) : INFINITY;
+  return elsewhere * others > 0 ? here * mine / (elsewhere * others) / (mine < others ? 1 : 0.5) : INFINITY;
 }
 
-/* Is pixel p a spill?  By the definition, pixel by pixel. */
+/* Is pixel p a spill, if those are that are known?  By the definition, pixel by pixel. */
 static bool
-slow_stain (const CeldLabels *painted, const CeldLabels *component, const uint32_t stroke[W * H], int p)
+slow_stain (const CeldLabels *painted, const CeldLabels *component, const uint32_t stroke[W * H],
+            const bool spill[W * H], int p)
 {
-  bool   lesser, other_lesser, best = true;
+  bool   best = true;
   double odds;
 
-  if (!painted->data[p] || !component->data[p])
+  if (!painted->data[p] || !component->data[p] || spill[p])
     return false;
-  odds = slow_odds (painted, component, stroke, p, &lesser);
+  odds = slow_odds (painted, component, stroke, spill, p);
   for (int q = 0; q < W * H && odds < 1; q++)
-    if (painted->data[q] && component->data[q] && stroke[q] == stroke[p])
-      best &= slow_odds (painted, component, stroke, q, &other_lesser) <= odds;
-  return odds < (lesser ? 1 : 0.5) && !best;
+    if (painted->data[q] && component->data[q] && stroke[q] == stroke[p] && !spill[q])
+      best &= slow_odds (painted, component, stroke, spill, q) <= odds;
+  return odds < 1 && !best;
+}
+
+static void
+slow_spills (const CeldLabels *painted, const CeldLabels *component, const uint32_t stroke[W * H], bool spill[W * H])
+{
+  bool more[W * H];
+  int  found;
+
+  memset (spill, 0, W * H * sizeof *spill);
+  do
+    {
+      found = 0;
+      for (int p = 0; p < W * H; p++)
+        found += more[p] = slow_stain (painted, component, stroke, spill, p);
+      for (int p = 0; p < W * H; p++)
+        spill[p] |= more[p];
+    }
+  while (found);
 }
 
 /* With what other seeds on the same drawing left behind, stroke pieces must be the same. */
@@ -169,6 +189,7 @@ stroke_pieces_overlaps_and_spills_are_those_of_the_pixels (void)
       uint32_t    n;
       size_t      pixels = 0, dabbed = 0, paper_pixels = 0;
       int         wrong = 0;
+      bool        spill[W * H];
 
       random_sketch (&state, 9, paper, painted);
       for (int y = 0; y < H; y++)
@@ -217,12 +238,11 @@ stroke_pieces_overlaps_and_spills_are_those_of_the_pixels (void)
       s.task.brush = 1;
       CHECK (celd_spills_remove (NULL, &s.task) == CELD_OK);
       join_severed (&paint, &s.ink, stroke);
+      slow_spills (&paint, &component, stroke, spill);
       for (int p = 0; p < W * H; p++)
         {
-          bool spill = slow_stain (&paint, &component, stroke, p);
-
-          wrong += celd_seed_rows_at (&s.task.seeds, p % W, p / W) != (spill ? 0 : paint.data[p]);
-          stains += spill;
+          wrong += celd_seed_rows_at (&s.task.seeds, p % W, p / W) != (spill[p] ? 0 : paint.data[p]);
+          stains += spill[p];
         }
       NEAR (wrong, 0, 0);
       sketch_close (&s);
@@ -306,6 +326,18 @@ where_a_stroke_is_most_likely_meant_it_is_none (void)
   check_left (paper, painted, 0.05f, left);
 }
 
+/* Once the lower end is known to be a spill, what is left of A behind the contour does not outweigh B. */
+static void
+spills_speak_for_no_label (void)
+{
+  static const char *const paper[] = { "111#2222222", "111#2222222", "111#2222222", "111#2222222", "111#2222222", NULL };
+  static const char *const painted[] = {
+    "AAAAAAA....", "...........", "......BBBBB", "AAA........", "AAAAAA.....", NULL };
+  static const char *const left[] = { "AAAA.......", "...........", "......BBBBB", "AAA........", "AAAA.......", NULL };
+
+  check_left (paper, painted, 0.05f, left);
+}
+
 /* ------------------------------------------------------------------ strokes cut in two */
 
 /* How many strokes there are once those that were cut in two are joined; the brush is a pixel wide. */
@@ -375,6 +407,7 @@ main (void)
   RUN (a_lesser_spill_has_odds_below_one);
   RUN (a_spill_has_odds_below_one_half);
   RUN (where_a_stroke_is_most_likely_meant_it_is_none);
+  RUN (spills_speak_for_no_label);
   RUN (a_stroke_cut_by_other_paint_or_ink_is_one);
   RUN (the_cut_off_end_of_a_spill_is_a_spill);
   return DONE;
