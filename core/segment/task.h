@@ -157,8 +157,8 @@ int celd_stroke_overlap_compare (const void *a, const void *b);
 /* Removes the seeds of a stroke piece that lie on paper. */
 CeldStatus celd_stroke_piece_remove (CeldSegmentTask *task, const CeldStrokePiece *piece);
 
-/* Removes the seeds where a soft stroke ran on through a contour onto a component that is mostly painted otherwise;
- * fills in task->painted. */
+/* Removes the seeds where a soft stroke ran on through a contour onto a component that is mostly painted otherwise, or
+ * into a solid area; fills in task->painted. */
 CeldStatus celd_spills_remove (const CeldHost *host, CeldSegmentTask *task);
 
 /* Is this piece of task->painted a spill? */

@@ -509,6 +509,20 @@ def drop():
     return f
 
 
+def careless_ends():
+    """A sheet in a bold outline and a small one on it, whose stroke runs on into that outline."""
+    f = Figure()
+    f.shape(box(30, 30, 210, 170), 36)
+    for y in range(104, 146, 6):
+        f.line([(60, y), (180, y)], 1.5)
+    f.shape(box(80, 60, 160, 96), 1.5)
+    f.stroke('scribbles', [(150, 90), (90, 70), (90, 34)], A)
+    f.stroke('scribbles', [(60, 56), (60, 142), (180, 142)], B)
+    f.stroke('scribbles', [(5, 5), (235, 5)], C)
+    f.relations = '#dc3c3c > #3c8cdc; #3c8cdc > #f0b428'
+    return f
+
+
 def soft_on_white():
     """Strokes of a soft brush of half opacity, flattened on white."""
     f = Figure()
@@ -527,7 +541,8 @@ FIGURES = [two_arrows, thick, contours, two_characters, frame, limbs, cycle, bro
            gap_beside_bay, hairline_gaps, stubs, ring_round_bar, bay_beside_stub, bay_below_gap, rubbed_out_corner,
            severed, close_up, nearly_touches_frame, forgotten, cut_off, unpainted_page, gap_on_unpainted_page,
            stopped_near, stopped_farther, stopped_far, open_bay, vein, notch, hairline, stroke_on_contour,
-           pencil_on_smooth_paper, pencil_on_rough_paper, cover_on_thick, cover_on_thicker, drop, soft_on_white]
+           pencil_on_smooth_paper, pencil_on_rough_paper, cover_on_thick, cover_on_thicker, drop, careless_ends,
+           soft_on_white]
 
 
 if __name__ == '__main__':

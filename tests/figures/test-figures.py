@@ -288,11 +288,18 @@ def drop(run):
     yield 'all of the ink belongs to the sheet', (r.levels[r.drawing < 64] == r.level(80, 100)).mean() > 0.99
 
 
+def careless_ends(run):
+    r = run()
+    bold = r.drawing[40:-40, 20:40] < 64
+    yield 'the bold outline is part of its sheet', (r.labels[40:-40, 20:40][bold] == r.labels[120, 60]).all()
+    yield 'the small sheet is one', (r.labels[62:94, 84:156] == r.labels[80, 120]).all()
+
+
 OUTCOMES = [two_arrows, thick, contours, two_characters, frame, limbs, cycle, broken, pinched, pinched,
             gap_beside_bay, hairline_gaps, stubs, ring_round_bar, bay_beside_stub, bay_below_gap, rubbed_out_corner,
             severed, close_up, nearly_touches_frame, forgotten, cut_off, unpainted_page, gap_on_unpainted_page,
             stopped_short, stopped_short, stopped_short, no_room, no_room, no_room, hairline, stroke_on_contour, hairline,
-            hairline, cover, cover, drop, soft_on_white]
+            hairline, cover, cover, drop, careless_ends, soft_on_white]
 
 
 def main():

@@ -338,6 +338,20 @@ spills_speak_for_no_label (void)
   check_left (paper, painted, 0.05f, left);
 }
 
+/* Nobody paints the bold contour into which strokes run.  Half as many pixels there as on paper mean it. */
+static void
+paint_in_a_solid_area_is_a_spill_unless_a_third_is_there (void)
+{
+  static const char *const paper[] = { "111111#000000", "111111#000000", "111111#000000", NULL };
+  static const char *const ends[] = { "AAAAAAAAA....", ".............", "BBBBBBBBB....", NULL };
+  static const char *const left[] = { "AAAAAAA......", ".............", "BBBBBBB......", NULL };
+  static const char *const meant[] = { "AAAAAAAAAA...", ".............", "......BBBB...", NULL };
+
+  check_left (paper, ends, 0.05f, left);
+  check_left (paper, ends, 1, ends);
+  check_left (paper, meant, 0.05f, meant);
+}
+
 /* ------------------------------------------------------------------ strokes cut in two */
 
 /* How many strokes there are once those that were cut in two are joined; the brush is a pixel wide. */
@@ -408,6 +422,7 @@ main (void)
   RUN (a_spill_has_odds_below_one_half);
   RUN (where_a_stroke_is_most_likely_meant_it_is_none);
   RUN (spills_speak_for_no_label);
+  RUN (paint_in_a_solid_area_is_a_spill_unless_a_third_is_there);
   RUN (a_stroke_cut_by_other_paint_or_ink_is_one);
   RUN (the_cut_off_end_of_a_spill_is_a_spill);
   return DONE;
