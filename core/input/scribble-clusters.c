@@ -1,9 +1,9 @@
 /* Which colours of a painted layer are labels.
  *
  * Colours are clustered greedily, by falling number of solid pixels; a cluster has the colours within the radius of
- * rounding or of loss.  A cluster is a label if it has enough solid pixels, and in a lossy picture interior pixels as
- * well, because there a fringe may look like a pencil line.  Loss and resampling leave the rims and ends of strokes in
- * clusters of their own, which are merged with the cluster that they touch most.
+ * rounding or of loss.  A cluster is a label if it has enough solid pixels, and in a lossy picture on paper interior
+ * pixels as well, because there a fringe may look like a pencil line.  Loss and resampling leave the rims and ends of
+ * strokes in clusters of their own, which are merged with the cluster that they touch most.
  *
  * Cost: a sort of the colours, O(1) for each through a grid of cells in colour space.
  *
@@ -269,15 +269,15 @@ find_apart (CeldScribbleLayer *r)
 }
 
 /* Is the cluster a label?  Fringes of other strokes may have its colour, but no interior pixels, except for the soft
- * ends of brushes on paper.  In a lossy picture a fringe may look like a pencil line, so that a label needs interior
- * pixels there.  In pixel art, where a stray pixel would be seen, a dot of one pixel is a label if strokes are hard, or
- * if it touches no other colour, as a fringe would. */
+ * ends of brushes on paper.  In a lossy picture on paper a fringe may look like a pencil line, so that a label needs
+ * interior pixels there.  In pixel art, where a stray pixel would be seen, a dot of one pixel is a label if strokes are
+ * hard, or if it touches no other colour, as a fringe would. */
 static bool
 is_label (const CeldScribbleLayer *r, const CeldScribbleCluster *k)
 {
   if (r->pixel_art && !r->lossy && (k->apart || r->hard))
     return true;
-  if (k->solid < CELD_LEAST_DOT || (r->lossy && !has_interior (k)))
+  if (k->solid < CELD_LEAST_DOT || (r->lossy && r->paper && !has_interior (k)))
     return false;
   return k->is_ridge || 3 * (size_t) k->solid >= k->pixels ||
          (2 * (size_t) k->interior >= k->solid && has_interior (k) && !is_tint (r, k));

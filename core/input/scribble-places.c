@@ -2,7 +2,8 @@
  *
  * A label has the pixels of its own colours that are solid or touch solid ones; every other pixel is assigned to the
  * neighbouring label whose colour is nearest.  A line on opaque paper that is too thin to have a pixel of its full
- * colour is assigned by its strongest pixel.
+ * colour is assigned by its strongest pixel, and a stroke on transparency whose colours are no labels, as filters that
+ * made it smaller may leave one, by its commonest.
  *
  * Cost: O(pixels); 8 bytes for each pixel whose label comes from a neighbour.
  *
@@ -150,13 +151,20 @@ done:
 
 /* ------------------------------------------------------------------ lines too thin to have a colour of their own */
 
+/* How well a colour shows what a line was painted with: its squared contrast with paper, or how common it is. */
+static int
+strength_of (const CeldScribbleLayer *r, uint32_t id)
+{
+  return r->paper ? celd_colour_distance (r->colour[id].channel, r->colour[r->paper].channel)
+                  : (int) r->colour[id].pixels;
+}
+
 /* Is the pixel paint, clearly unlike paper, without a label? */
 static bool
 is_lost (const CeldScribbleLayer *r, size_t i)
 {
   return (r->label[i] == 0 || r->label[i] == CELD_UNDECIDED) && r->id[i] && r->id[i] != r->paper &&
-         celd_colour_distance (r->colour[r->id[i]].channel, r->colour[r->paper].channel) >
-         LINE_CONTRAST * LINE_CONTRAST;
+         (!r->paper || strength_of (r, r->id[i]) > LINE_CONTRAST * LINE_CONTRAST);
 }
 
 /* Lists the lost pixels connected to pixel i, marks them CELD_QUEUED, and finds their strongest colour; 0 if a label
@@ -164,9 +172,8 @@ is_lost (const CeldScribbleLayer *r, size_t i)
 static size_t
 gather_line (CeldScribbleLayer *r, uint32_t i, uint32_t *line, uint32_t *strongest)
 {
-  const int *paper = r->colour[r->paper].channel;
-  size_t     n = 0;
-  bool       rim = false;
+  size_t n = 0;
+  bool   rim = false;
 
   *strongest = r->id[i];
   r->label[i] = CELD_QUEUED;
@@ -175,8 +182,7 @@ gather_line (CeldScribbleLayer *r, uint32_t i, uint32_t *line, uint32_t *stronge
     {
       int x = (int) (line[k] % (size_t) r->width), y = (int) (line[k] / (size_t) r->width);
 
-      if (celd_colour_distance (r->colour[r->id[line[k]]].channel, paper) >
-          celd_colour_distance (r->colour[*strongest].channel, paper))
+      if (strength_of (r, r->id[line[k]]) > strength_of (r, *strongest))
         *strongest = r->id[line[k]];
       for (int v = y > 0 ? y - 1 : 0; v <= y + 1 && v < r->height; v++)
         for (int u = x > 0 ? x - 1 : 0; u <= x + 1 && u < r->width; u++)
@@ -213,18 +219,11 @@ is_broad (const CeldScribbleLayer *r, uint32_t i)
 static uint32_t
 strongest_of_broad (const CeldScribbleLayer *r, const uint32_t *line, size_t n)
 {
-  const int *paper = r->colour[r->paper].channel;
-  uint32_t   strongest = 0;
+  uint32_t strongest = 0;
 
   for (size_t k = 0; k < n; k++)
-    if (is_broad (r, line[k]))
-      {
-        uint32_t id = r->id[line[k]];
-
-        if (!strongest || celd_colour_distance (r->colour[id].channel, paper) >
-                            celd_colour_distance (r->colour[strongest].channel, paper))
-          strongest = id;
-      }
+    if (is_broad (r, line[k]) && (!strongest || strength_of (r, r->id[line[k]]) > strength_of (r, strongest)))
+      strongest = r->id[line[k]];
   return strongest;
 }
 
@@ -235,7 +234,7 @@ label_of_colour (const CeldScribbleLayer *r, uint32_t id, bool mixed)
 {
   const int *paper = r->colour[r->paper].channel, *c = r->colour[id].channel;
   uint32_t   found = 0;
-  int        least = TINT_ERROR * TINT_ERROR;
+  int        least = r->paper ? TINT_ERROR * TINT_ERROR : 4 * r->radius * r->radius;
 
   for (uint32_t k = 1; k < r->n_clusters; k++)
     {
@@ -285,7 +284,7 @@ assign_lost_lines (CeldScribbleLayer *r)
       n = gather_line (r, (uint32_t) i, line, &strongest);
       if (!strongest || n < CELD_LEAST_DOT)
         continue;
-      broad = strongest_of_broad (r, line, n);
+      broad = r->paper ? strongest_of_broad (r, line, n) : strongest;
       k = label_of_colour (r, broad ? broad : strongest, !broad);
       if (!k)
         {
@@ -311,7 +310,7 @@ celd_scribble_places (CeldScribbleLayer *r, const CeldHost *host)
   status = celd_progress (host, 0.8);
   if (status == CELD_OK)
     status = place_rest (r, host);
-  if (status == CELD_OK && r->paper)
+  if (status == CELD_OK)
     status = assign_lost_lines (r);
   return status;
 }

@@ -34,19 +34,21 @@ colours_within_the_radius_are_one (void)
   reading_clear (&r);
 }
 
-/* With loss also four interior ones. */
+/* On paper and with loss also four interior ones. */
 static void
 a_label_needs_four_solid_pixels (void)
 {
-  static const struct { uint32_t solid, interior; bool lossy, label; } given[] = {
-    { 4, 0, false, true }, { 3, 0, false, false }, { 4, 4, true, true }, { 4, 3, true, false },
+  static const struct { uint32_t solid, interior; bool lossy, paper, label; } given[] = {
+    { 4, 0, false, true, true }, { 3, 0, false, true, false }, { 4, 4, true, true, true }, { 4, 3, true, true, false },
+    { 4, 0, true, false, true },
   };
-  int rgb[2][3] = { { 200, 0, 0 }, { 0, 0, 200 } };
+  int rgb[3][3] = { { 200, 0, 0 }, { 0, 0, 200 }, { 255, 255, 255 } };
 
   for (size_t i = 0; i < sizeof given / sizeof *given; i++)
     {
-      CeldScribbleLayer r = reading_new (apart, rgb, 2);
+      CeldScribbleLayer r = reading_new (apart, rgb, 3);
 
+      r.paper = given[i].paper ? 3 : 0;
       r.colour[2].solid = given[i].solid;
       r.colour[2].interior = given[i].interior;
       r.lossy = given[i].lossy;
