@@ -62,6 +62,7 @@ typedef struct
   uint32_t pixels, solid, interior;     /* how many pixels it has, and of those kinds; interior ones are solid, too */
   uint64_t opacity;                     /* sum of its pixels' alpha, 0 .. 255 each */
   uint32_t cluster;
+  bool     is_soft;                     /* soft strokes on paper have it, which show paler tints of it, too */
 } CeldScribbleColour;
 
 /* Colours that mean one label; cluster 0 means no label. */

@@ -117,13 +117,15 @@ has_interior (const CeldScribbleCluster *k)
   return k->interior >= CELD_LEAST_DOT && 8 * (size_t) k->interior >= k->pixels;
 }
 
-/* Is cluster j larger than cluster k and of nearly its colour, so that k may be a rim of it? */
+/* Is cluster j larger than cluster k and of nearly its colour, so that k may be a rim of it?  A rim of paper has no
+ * interior pixels: a pale stroke has. */
 static bool
 may_be_rim (const CeldScribbleLayer *r, uint32_t k, uint32_t j)
 {
   const CeldScribbleCluster *c = &r->cluster[k], *l = &r->cluster[j];
 
-  return k && l->colour && (l->pixels > c->pixels || (l->pixels == c->pixels && j < k)) &&
+  return k && l->colour && (j || !has_interior (c)) &&
+         (l->pixels > c->pixels || (l->pixels == c->pixels && j < k)) &&
          celd_colour_distance (c->channel, l->channel) <= RIM_DISTANCE * RIM_DISTANCE;
 }
 

@@ -67,7 +67,7 @@ colour_index (CeldScribbleLayer *r, const uint8_t *rgba)
     return r->slot[s];
   if (!celd_reserve_one (r->colour, r->n, r->colour_capacity))
     return 0;
-  r->colour[r->n] = (CeldScribbleColour) { { rgba[0], rgba[1], rgba[2] }, 0, 0, 0, 0, CELD_NO_CLUSTER };
+  r->colour[r->n] = (CeldScribbleColour) { { rgba[0], rgba[1], rgba[2] }, 0, 0, 0, 0, CELD_NO_CLUSTER, false };
   r->slot[s] = (uint32_t) r->n;
   return (uint32_t) r->n++;
 }
@@ -221,7 +221,7 @@ celd_scribble_colours (CeldScribbleLayer *r, bool flats, const CeldHost *host)
 
   if (!celd_reserve (&r->colour, 1, &r->colour_capacity, sizeof *r->colour))
     return CELD_NO_MEMORY;
-  r->colour[0] = (CeldScribbleColour) { { 0, 0, 0 }, 0, 0, 0, 0, 0 };
+  r->colour[0] = (CeldScribbleColour) { { 0, 0, 0 }, 0, 0, 0, 0, 0, false };
   r->n = 1;
   status = count_colours (r, flats, &count);
   if (status != CELD_OK)

@@ -4,8 +4,9 @@
  * the deficits of mixtures, colours less that of paper, are those of both strokes times factors up to 1.  On a
  * transparent layer a mixture lies between both colours.  Where the mixture is flat, both strokes are translucent, and
  * it is stronger than either: the factors add up to more than 1, or it is more opaque.  Soft brushes also leave all
- * steps from one stroke to the other and to paper; none of these is flat.  Where a stroke on paper crosses itself, or
- * another of its colour, it shows its own deficit times 2 - a.
+ * steps from one stroke to the other and to paper; none of these is flat, or it is by chance, because such strokes are
+ * less opaque in places.  Where a stroke on paper crosses itself, or another of its colour, it shows its own deficit
+ * times 2 - a.
  *
  * A pixel is taken for a mixture if a stroke that it may be mixed of is seen from it, across its own colour no farther
  * than this is wide there, and a few pixels of other paint beyond; and the other stroke from any pixel of this colour,
@@ -147,6 +148,7 @@ is_mixture (const CeldScribbleLayer *r, uint32_t id, uint32_t k, uint32_t a, uin
   const CeldScribbleCluster *of = &r->cluster[a], *and = &r->cluster[b];
   const int                 *c = r->colour[id].channel;
 
+  flat = flat && !r->colour[of->colour].is_soft && !r->colour[and->colour].is_soft;
   if (r->paper)
     return is_mixed_on_paper (r->colour[r->paper].channel, c, of->channel, and->channel, flat);
   return is_between (c, of->channel, and->channel) &&

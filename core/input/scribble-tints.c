@@ -1,11 +1,14 @@
 /* Strokes of soft brushes, and of pens whose pressure changes their opacity, flattened on paper.
  *
  * Such a stroke has all tints of its paint, from the strongest to paper, and they change little from pixel to pixel.
- * It becomes flat, in its strongest colour: a tint that covers as much as one of a hard stroke would be a label of its
- * own.  Pieces grow from their strongest pixels, as in a watershed, over mixtures of paper and their colour, and become
- * one where a tint joins them that is not much paler than both.  Hard strokes in two tints that touch differ by more
- * than a step, or much of the weaker one has one colour.  What is paler than a third of its stroke is none, as on a
- * transparent layer.  Mixtures of strokes that cross are left to scribble-overlaps.c.
+ * It becomes flat, in the strongest colour that is found inside it, because sharp filters make rims stronger: a tint
+ * that covers as much as one of a hard stroke would be a label of its own.  Pieces grow from their strongest pixels,
+ * as in a watershed, over mixtures of paper and their colour, and become one where a tint joins them that is not much
+ * paler than both.  Hard strokes in two tints that touch differ by more than a step, or much of the weaker one has one
+ * colour.  What is paler than a third of its stroke is none, as on a transparent layer.  Mixtures of strokes that cross
+ * are left to scribble-overlaps.c.
+ *
+ * Loss moves tints off the mixtures of paper and paint, so that more counts as one in a filtered picture.
  *
  * Cost: O(pixels), and O(strokes^2) of those that are soft; 4 bytes a pixel, and 40 a piece.
  *
@@ -19,18 +22,19 @@
 
 #define ALL_CONTRASTS 442  /* more than the distance of black from white */
 #define SOFT_STEP     0.15 /* of the contrast of a stroke, from pixel to pixel in a soft one, at most; chosen */
+#define LOSSY_STEP    0.25 /* the same with loss; measured: with less, strokes of changing pressure fall into pieces */
 #define SADDLE        0.2  /* of the contrast of the weaker one, where two pieces join, at least; chosen */
 #define MIXTURE_ERROR 3    /* of 255, from a tint to the mixtures of paper and paint, at most: rounding */
-#define PALE          1.5  /* times as much contrast as a pale pixel has its stroke, at least; sharpening does less */
-#define LEAST_PALE    8    /* of a soft stroke at least an eighth is pale; chosen */
+#define LOSSY_ERROR   8    /* the same with loss; measured: 6 and 10 lose more colours of soft strokes */
+#define LOSSY_TINT    4    /* of 255: between what is one tint in a filtered picture, at most; measured as above */
 #define FLAT_PAINT    8    /* a stroke has flat paint if more than an eighth is inside one tint; chosen */
 #define SAME_PAINT    12   /* of 255: from the colour of a stroke to others that mean the same, at most; chosen */
 #define PAINT_SHARE   3    /* a pixel is paint from one third of the contrast of its stroke on, as with alpha */
 #define MANY_STROKES  4096 /* more are not compared; chosen */
 
-/* A piece: its strongest colour; how many pixels it has, how many of them are pale, paint, and paint inside another
+/* A piece: its strongest colour, and that of pixels inside it (0: none); how many are paint, and paint inside another
  * colour; the colour that most of these have, if one has; its border, and how much of that is with other paint. */
-typedef struct { uint32_t id, all, pale, paint, inside, tint, votes, of_tint, border, foreign; } TintPiece;
+typedef struct { uint32_t id, core, paint, inside, tint, votes, of_tint, border, foreign; } TintPiece;
 
 static int
 contrast_of (const CeldScribbleLayer *r, uint32_t id)
@@ -43,9 +47,10 @@ static bool
 is_tint_of (const CeldScribbleLayer *r, uint32_t id, uint32_t of)
 {
   bool ahead = true;
+  int  error = r->lossy ? LOSSY_ERROR : MIXTURE_ERROR;
 
   return id == of || (celd_distance_to_mixtures (r->colour[r->paper].channel, r->colour[of].channel,
-                                                 r->colour[id].channel, &ahead) <= MIXTURE_ERROR * MIXTURE_ERROR &&
+                                                 r->colour[id].channel, &ahead) <= error * error &&
                       ahead);
 }
 
@@ -85,6 +90,7 @@ join_pixel (CeldScribbleLayer *r, const uint16_t *contrast, uint32_t p)
   int      x = (int) (p % (size_t) r->width), y = (int) (p / (size_t) r->width);
   uint32_t root[8], best = p;
   size_t   n = 0;
+  double   step = r->lossy ? LOSSY_STEP : SOFT_STEP;
 
   for (int v = y > 0 ? y - 1 : 0; v <= y + 1 && v < r->height; v++)
     for (int u = x > 0 ? x - 1 : 0; u <= x + 1 && u < r->width; u++)
@@ -95,7 +101,7 @@ join_pixel (CeldScribbleLayer *r, const uint16_t *contrast, uint32_t p)
         if (!r->kind[q] || contrast[r->id[q]] < contrast[r->id[p]])
           continue;
         k = celd_root (r->label, (uint32_t) q);
-        if (!differ (r, r->id[p], r->id[q], (int) (SOFT_STEP * contrast[r->id[k]])) &&
+        if (!differ (r, r->id[p], r->id[q], (int) (step * contrast[r->id[k]])) &&
             is_tint_of (r, r->id[p], r->id[k]))
           root[n++] = k;
       }
@@ -165,16 +171,28 @@ visit_border (const CeldScribbleLayer *r, TintPiece *piece, size_t p, size_t q)
   piece[b].foreign += foreign;
 }
 
-/* The tint inside which the pixel (x,y) of a piece is; 0: none. */
-static uint32_t
-tint_at (const CeldScribbleLayer *r, const TintPiece *k, int x, int y)
+/* Adds a pixel of paint that is inside one colour; the majority is that of Boyer and Moore. */
+static void
+visit_inside (const CeldScribbleLayer *r, const uint16_t *contrast, TintPiece *k, uint32_t id, bool count)
 {
-  uint32_t id = r->id[(size_t) y * (size_t) r->width + (size_t) x];
+  int  error = r->lossy ? LOSSY_TINT : 0;
+  bool is_tint = differ (r, id, k->id, r->radius);
 
-  return differ (r, id, k->id, r->radius) && is_inside (r, x, y) ? id : 0;
+  if (count)
+    {
+      k->of_tint += is_tint && !differ (r, id, k->tint, error);
+      return;
+    }
+  if (contrast[id] > contrast[k->core])
+    k->core = id;
+  if (!is_tint)
+    return;
+  k->inside++;
+  k->tint = k->votes ? k->tint : id;
+  k->votes = differ (r, id, k->tint, error) ? k->votes - 1 : k->votes + 1;
 }
 
-/* Fills in what is known of the pieces but their colour; the majority is that of Boyer and Moore. */
+/* Fills in what is known of the pieces but their colour. */
 static void
 measure_pieces (const CeldScribbleLayer *r, const uint16_t *contrast, TintPiece *piece)
 {
@@ -185,41 +203,31 @@ measure_pieces (const CeldScribbleLayer *r, const uint16_t *contrast, TintPiece 
           size_t     p = (size_t) y * (size_t) r->width + (size_t) x;
           TintPiece *k = &piece[r->label[p]];
           bool       paint = k->id && PAINT_SHARE * contrast[r->id[p]] >= contrast[k->id];
-          uint32_t   tint = paint ? tint_at (r, k, x, y) : 0;
 
+          if (paint && is_inside (r, x, y))
+            visit_inside (r, contrast, k, r->id[p], pass);
           if (pass)
-            {
-              k->of_tint += tint && k->tint == tint;
-              continue;
-            }
+            continue;
           if (x + 1 < r->width)
             visit_border (r, piece, p, p + 1);
           if (y + 1 < r->height)
             visit_border (r, piece, p, p + (size_t) r->width);
-          k->all++;
-          k->pale += PALE * contrast[r->id[p]] < contrast[k->id];
           k->paint += paint;
-          if (!tint)
-            continue;
-          k->inside++;
-          k->tint = k->votes ? k->tint : tint;
-          k->votes = k->tint == tint ? k->votes + 1 : k->votes - 1;
         }
 }
 
 /* ------------------------------------------------------------------ one colour for each stroke */
 
-/* The colour of a piece if it is a soft stroke, else 0: it has tints that would be labels, and pale ones, it is not the
- * mixture of two strokes, which lies between these, and if much of it is flat, this has its colour, or nearly so. */
+/* The colour of a piece if it is a soft stroke, else 0: it has tints that would be labels, it is not the mixture of two
+ * strokes, which lies between these, and if much of it is flat, this has its colour, or nearly so. */
 static uint32_t
 soft_colour (const CeldScribbleLayer *r, const TintPiece *k)
 {
   bool flat = 2 * k->of_tint > k->inside && FLAT_PAINT * k->of_tint > k->paint;
 
-  if (k->inside < CELD_LEAST_DOT || LEAST_PALE * k->pale < k->all || 2 * k->foreign > k->border ||
-      (flat && differ (r, k->tint, k->id, SAME_PAINT)))
+  if (k->inside < CELD_LEAST_DOT || 2 * k->foreign > k->border || (flat && differ (r, k->tint, k->core, SAME_PAINT)))
     return 0;
-  return flat ? k->tint : k->id;
+  return flat ? k->tint : k->core;
 }
 
 /* Keeps the soft pieces in order, by falling contrast; returns how many there are. */
@@ -260,6 +268,7 @@ paint_pieces (CeldScribbleLayer *r, const uint16_t *contrast, const TintPiece *p
 
       if (!id || id == r->id[p])
         continue;
+      r->colour[id].is_soft = true;
       r->colour[r->id[p]].pixels--;
       r->colour[r->id[p]].opacity -= 255;
       r->id[p] = PAINT_SHARE * contrast[r->id[p]] >= contrast[id] ? id : r->paper;

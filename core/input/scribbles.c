@@ -219,7 +219,7 @@ celd_scribbles_read (const CeldPaint *scribbles, const CeldSettings *settings, c
   status = r.id && r.label && r.kind ? celd_scribble_colours (&r, settings->flats, &begin) : CELD_NO_MEMORY;
   if (status == CELD_OK && settings->flats)
     status = celd_scribble_gradients (&r);
-  else if (status == CELD_OK && r.paper && !r.lossy)
+  else if (status == CELD_OK && r.paper)
     status = celd_scribble_tints (&r);
   if (status != CELD_OK)
     goto done;

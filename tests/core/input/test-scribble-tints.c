@@ -1,4 +1,5 @@
-/* Soft, translucent and resampled strokes, flattened on white paper: one label each, in the colour of their middle.
+/* Soft, translucent and resampled strokes, flattened on white paper, also with loss: one label each, in the colour of
+ * their middle.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -115,6 +116,119 @@ pressure_on_paper (void)
   CHECK (in_palette (red, 0) && in_palette (pink, 0));
 }
 
+/* A hard pen of changing pressure is never less than two thirds as opaque as where it is strongest. */
+static void
+little_pressure_on_paper (void)
+{
+  clear_paint (true);
+  for (int y = 0; y < HEIGHT; y++)
+    for (int x = 30; x < 370; x++)
+      for (int k = 0; k < 2; k++)
+        {
+          double away = fabs (y - (k ? 210 : 80) - 20 * sin (x / 50.)), pressure = 0.85 + 0.15 * cos (x / 40.);
+
+          lay (x, y, k ? blue : red, pressure * fmin (fmax (8.5 - away, 0), 1));
+        }
+  CHECK (read_size (WIDTH, HEIGHT) == CELD_OK && palette.n == 2);
+  CHECK (in_palette (red, 4) && in_palette (blue, 4));
+}
+
+/* Pens of changing pressure that cross: where they do, all mixtures of their tints are found, and none is a label. */
+static void
+crossing_pressure_on_paper (void)
+{
+  clear_paint (true);
+  for (int y = 20; y < HEIGHT - 20; y++)
+    for (int x = 30; x < 370; x++)
+      {
+        double side = fabs (y - 150 - 0.2 * (x - 200)), along = fabs (x - 200 + 0.3 * (y - 150));
+
+        lay (x, y, blue, (0.65 + 0.35 * cos ((y - 75) * 6.2832 / 150)) * fmin (fmax (16.5 - along, 0), 1));
+        lay (x, y, red, (0.65 + 0.35 * cos ((x - 100) * 6.2832 / 200)) * fmin (fmax (16.5 - side, 0), 1));
+      }
+  CHECK (read_size (WIDTH, HEIGHT) == CELD_OK && palette.n == 2);
+  CHECK (in_palette (red, 6) && in_palette (blue, 6));
+}
+
+/* Shakes each block of 16 pixels that is not blank, as a codec does: all pixels by luma, and the block by chroma. */
+static void
+shake_paint (int luma, int chroma)
+{
+  uint32_t state = 7;
+
+  for (int top = 0; top < HEIGHT; top += 16)
+    for (int left = 0; left < WIDTH; left += 16)
+      {
+        int  bottom = top + 16 < HEIGHT ? top + 16 : HEIGHT, shift[3];
+        bool blank = true;
+
+        for (int i = 0; i < 3; i++)
+          shift[i] = (int) check_random (&state, 2 * (uint32_t) chroma + 1) - chroma;
+        for (int y = top; y < bottom; y++)
+          for (int x = left; x < left + 16; x++)
+            for (int i = 0; i < 3; i++)
+              blank = blank && paint_of[4 * (y * WIDTH + x) + i] == 255;
+        for (int y = top; y < bottom && !blank; y++)
+          for (int x = left; x < left + 16; x++)
+            {
+              uint8_t *c = paint_of + 4 * (y * WIDTH + x);
+              int      shaken = (int) check_random (&state, 2 * (uint32_t) luma + 1) - luma;
+
+              for (int i = 0; i < 3; i++)
+                c[i] = (uint8_t) fmin (fmax (c[i] + shaken + shift[i], 0), 255);
+            }
+      }
+}
+
+/* Soft brushes of half opacity, and pens of changing pressure, stored with loss: one label each, nearly in the colour
+ * that they have where they are strongest. */
+static void
+soft_strokes_with_loss (void)
+{
+  static const uint8_t pure[4][3] = { { 200, 30, 40 }, { 30, 60, 220 }, { 20, 160, 60 }, { 60, 0, 160 } };
+
+  for (int loss = 4; loss <= 8; loss += 4)
+    {
+      clear_paint (true);
+      for (int k = 0; k < 4; k++)
+        for (int y = 70 * k + 10; y < 70 * k + 70; y++)
+          for (int x = 20; x < 380; x++)
+            {
+              double away = fabs (y - 70 * k - 40 - 10 * sin (x / 40.));
+
+              lay (x, y, pure[k], k < 2 ? 0.5 * fmax (1 - away / 14, 0)
+                                        : (0.7 + 0.3 * cos (x / (k < 3 ? 40. : 1.6))) * fmin (fmax ((12 - away) / 3, 0), 1));
+            }
+      shake_paint (loss, 3);
+      CHECK (read_size (WIDTH, HEIGHT) == CELD_OK);
+      NEAR (palette.n, 4, 0);
+      for (int k = 0; k < 4; k++)
+        {
+          uint8_t tint[3];
+
+          for (int i = 0; i < 3; i++)
+            tint[i] = (uint8_t) (k < 2 ? (255 + pure[k][i]) / 2 : pure[k][i]);
+          CHECK (in_palette (tint, 24));
+        }
+    }
+}
+
+/* A grey stroke that a black one crosses, both with soft edges and stored with loss, is no tint of that: most of it has
+ * one colour, nearly. */
+static void
+grey_across_black_with_loss (void)
+{
+  static const uint8_t black[3] = { 0, 0, 0 }, grey[3] = { 110, 110, 110 };
+
+  clear_paint (true);
+  spray (30, 60, 370, 240, 7, 0.5, 1, grey);
+  spray (200, 20, 180, 280, 7, 0.5, 1, black);
+  shake_paint (4, 2);
+  CHECK (read_size (WIDTH, HEIGHT) == CELD_OK);
+  NEAR (palette.n, 2, 0);
+  CHECK (in_palette (black, 24) && in_palette (grey, 24));
+}
+
 static double
 lanczos (double x)
 {
@@ -170,6 +284,10 @@ main (void)
   RUN (blurred_strokes_on_paper);
   RUN (narrow_translucent_strokes_on_paper);
   RUN (pressure_on_paper);
+  RUN (little_pressure_on_paper);
+  RUN (crossing_pressure_on_paper);
+  RUN (soft_strokes_with_loss);
+  RUN (grey_across_black_with_loss);
   RUN (sharp_edges_on_paper);
   celd_palette_clear (&palette);
   return DONE;
