@@ -169,8 +169,12 @@ visit_touches (const CeldScribbleLayer *r, MayBePart may_be_part, Parent *parent
         if (x + !i < r->width && y + i < r->height)
           {
             size_t   p = (size_t) y * (size_t) r->width + (size_t) x, q = i ? p + (size_t) r->width : p + 1;
-            uint32_t a = r->colour[r->id[p]].cluster, b = r->colour[r->id[q]].cluster;
+            uint32_t a, b;
 
+            if (r->id[p] == r->id[q])
+              continue;
+            a = r->colour[r->id[p]].cluster;
+            b = r->colour[r->id[q]].cluster;
             if (a == b || a == CELD_NO_CLUSTER || b == CELD_NO_CLUSTER)
               continue;
             if (count)

@@ -114,16 +114,8 @@ count_colours (CeldScribbleLayer *r, bool flats, const CeldHost *host)
 
 /* ------------------------------------------------------------------ filtering */
 
-/* paper is NULL if transparent pixels are paper. */
-typedef struct { const CeldPaint *from; CeldPaint to; const CeldScribbleColour *paper; } Filter;
-
-static bool
-is_none (const Filter *f, const uint8_t *rgba)
-{
-  const int *p = f->paper ? f->paper->channel : NULL;
-
-  return rgba[3] < 128 || (p && rgba[0] == p[0] && rgba[1] == p[1] && rgba[2] == p[2]);
-}
+/* paper is transparent if transparent pixels are paper. */
+typedef struct { const CeldPaint *from; CeldPaint to; uint8_t paper[4]; } Filter;
 
 /* A sigma filter [Lee83] of one row: each pixel becomes the mean of those of the 5 x 5 pixels around it that have
  * nearly its colour, which removes blocks and ripple of compression, but keeps edges. */
@@ -132,13 +124,13 @@ filter_row (void *data, int y)
 {
   Filter *f = data;
 
+  memcpy (CELD_RGBA (&f->to, 0, y), CELD_RGBA (f->from, 0, y), 4 * (size_t) f->to.width);
   for (int x = 0; x < f->to.width; x++)
     {
       const uint8_t *c = CELD_RGBA (f->from, x, y);
       int            sum[3] = { 0 }, n = 0;
 
-      memcpy (CELD_RGBA (&f->to, x, y), c, 4);
-      if (is_none (f, c))
+      if (!memcmp (c, f->paper, 4) || c[3] < 128)
         continue;
       for (int v = y > 2 ? y - 2 : 0; v <= y + 2 && v < f->to.height; v++)
         for (int u = x > 2 ? x - 2 : 0; u <= x + 2 && u < f->to.width; u++)
@@ -172,11 +164,13 @@ forget_colours (CeldScribbleLayer *r)
 static CeldStatus
 filter (const CeldScribbleLayer *r, CeldPaint *buffer, const CeldHost *host)
 {
+  const int *paper = r->colour[r->paper].channel;
   CeldStatus status = CELD_OK;
 
   for (int i = 0; i < FILTER_PASSES && status == CELD_OK; i++)
     {
-      Filter f = { i ? &buffer[(i + 1) % 2] : r->paint, buffer[i % 2], r->paper ? &r->colour[r->paper] : NULL };
+      Filter f = { i ? &buffer[(i + 1) % 2] : r->paint, buffer[i % 2],
+                   { (uint8_t) paper[0], (uint8_t) paper[1], (uint8_t) paper[2], r->paper ? 255 : 0 } };
 
       celd_parallel_for (host, r->height, filter_row, &f);
       status = celd_progress (host, 0.2 * (i + 1));

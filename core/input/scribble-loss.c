@@ -24,7 +24,8 @@
 static bool
 is_painted (const CeldScribbleLayer *r, size_t i)
 {
-  return celd_colour_distance (r->colour[r->id[i]].channel, r->colour[r->paper].channel) > 4 * r->radius * r->radius;
+  return r->id[i] != r->paper &&
+         celd_colour_distance (r->colour[r->id[i]].channel, r->colour[r->paper].channel) > 4 * r->radius * r->radius;
 }
 
 /* The mean width of strokes is twice their area by the length of their outline, and that by Crofton's formula pi / 4 of

@@ -145,8 +145,9 @@ has_odd_tints (const CeldScribbleLayer *r)
   for (int y = 0; y < r->height && r->paper; y++)
     for (int x = 0; x < r->width; x++)
       {
-        const int *c = r->colour[r->id[(size_t) y * (size_t) r->width + (size_t) x]].channel, *paint;
-        int        d = celd_colour_distance (c, paper);
+        uint32_t   id = r->id[(size_t) y * (size_t) r->width + (size_t) x];
+        const int *c = r->colour[id].channel, *paint;
+        int        d = id == r->paper ? 0 : celd_colour_distance (c, paper);
 
         if (d < TINT_LEAST * TINT_LEAST || d > TINT_MOST * TINT_MOST)
           continue;

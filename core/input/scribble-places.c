@@ -107,10 +107,10 @@ queue_neighbours (CeldScribbleLayer *r, size_t i, uint32_t *queue, size_t n)
   return n;
 }
 
-/* Gives undecided pixels labels of their neighbours, ring by ring outwards; those that are not reached stay
+/* Gives undecided pixels labels of their neighbours, ring by ring outwards; those that are not reached, so many, stay
  * undecided. */
 static CeldStatus
-place_rest (CeldScribbleLayer *r, const CeldHost *host)
+place_rest (CeldScribbleLayer *r, const CeldHost *host, size_t *unreached)
 {
   size_t     undecided = 0, ring = 0, end = 0, decided;
   uint32_t  *queue, *taken;
@@ -123,7 +123,7 @@ place_rest (CeldScribbleLayer *r, const CeldHost *host)
   if (!queue || !taken)
     goto done;
 
-  for (size_t i = 0; i < r->pixels; i++)
+  for (size_t i = 0; i < r->pixels && end < undecided; i++)
     if (r->label[i] && r->label[i] < CELD_QUEUED)
       end = queue_neighbours (r, i, queue, end);
   while (ring < end)
@@ -141,6 +141,7 @@ place_rest (CeldScribbleLayer *r, const CeldHost *host)
           end = queue_neighbours (r, queue[i], queue, end);
       ring = decided;
     }
+  *unreached = undecided - end;
   status = CELD_OK;
 
 done:
@@ -304,13 +305,14 @@ assign_lost_lines (CeldScribbleLayer *r)
 CeldStatus
 celd_scribble_places (CeldScribbleLayer *r, const CeldHost *host)
 {
+  size_t     unreached = 0;
   CeldStatus status;
 
   celd_parallel_for (host, r->height, place_row, r);
   status = celd_progress (host, 0.8);
   if (status == CELD_OK)
-    status = place_rest (r, host);
-  if (status == CELD_OK)
+    status = place_rest (r, host, &unreached);
+  if (status == CELD_OK && (r->paper || unreached))
     status = assign_lost_lines (r);
   return status;
 }

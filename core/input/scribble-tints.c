@@ -69,7 +69,8 @@ sort_pixels (const CeldScribbleLayer *r, const uint16_t *contrast, uint32_t *ord
   size_t first[ALL_CONTRASTS + 1] = { 0 }, n = 0;
 
   for (size_t p = 0; p < r->pixels; p++)
-    first[contrast[r->id[p]]]++;
+    if (r->id[p] != r->paper)
+      first[contrast[r->id[p]]]++;
   for (int c = ALL_CONTRASTS; c > 0; c--)
     {
       size_t of = first[c];
@@ -78,7 +79,7 @@ sort_pixels (const CeldScribbleLayer *r, const uint16_t *contrast, uint32_t *ord
       n += of;
     }
   for (size_t p = 0; p < r->pixels; p++)
-    if (contrast[r->id[p]])
+    if (r->id[p] != r->paper)
       order[first[contrast[r->id[p]]]++] = (uint32_t) p;
   return n;
 }
@@ -119,7 +120,7 @@ join_pixel (CeldScribbleLayer *r, const uint16_t *contrast, uint32_t p)
     }
 }
 
-/* Numbers the pieces from 1 in r->label, 0 for paper; returns how many there are. */
+/* Numbers the pieces from 1 in r->label, which is 0 for paper; returns how many there are. */
 static size_t
 number_pieces (CeldScribbleLayer *r, const uint32_t *order, size_t n)
 {
@@ -127,9 +128,6 @@ number_pieces (CeldScribbleLayer *r, const uint32_t *order, size_t n)
 
   for (size_t i = 0; i < n; i++)
     r->label[order[i]] = celd_root (r->label, order[i]);
-  for (size_t p = 0; p < r->pixels; p++)
-    if (!r->kind[p])
-      r->label[p] = 0;
   for (size_t i = 0; i < n; i++) /* a root comes before all others of its piece */
     {
       uint32_t p = order[i];
@@ -155,20 +153,16 @@ is_inside (const CeldScribbleLayer *r, int x, int y)
          (y + 1 == r->height || !differ (r, id[0], id[r->width], r->radius));
 }
 
-/* Counts the border between two pixels. */
+/* Counts the border of a pixel of a piece with another pixel. */
 static void
 visit_border (const CeldScribbleLayer *r, TintPiece *piece, size_t p, size_t q)
 {
   uint32_t a = r->label[p], b = r->label[q];
-  bool     foreign;
 
   if (a == b)
     return;
-  foreign = a && b && !is_tint_of (r, piece[a].id, piece[b].id) && !is_tint_of (r, piece[b].id, piece[a].id);
   piece[a].border++;
-  piece[b].border++;
-  piece[a].foreign += foreign;
-  piece[b].foreign += foreign;
+  piece[a].foreign += b && !is_tint_of (r, piece[a].id, piece[b].id) && !is_tint_of (r, piece[b].id, piece[a].id);
 }
 
 /* Adds a pixel of paint that is inside one colour; the majority is that of Boyer and Moore. */
@@ -196,23 +190,31 @@ visit_inside (const CeldScribbleLayer *r, const uint16_t *contrast, TintPiece *k
 static void
 measure_pieces (const CeldScribbleLayer *r, const uint16_t *contrast, TintPiece *piece)
 {
-  for (int pass = 0; pass < 2; pass++)
-    for (int y = 0; y < r->height; y++)
-      for (int x = 0; x < r->width; x++)
-        {
-          size_t     p = (size_t) y * (size_t) r->width + (size_t) x;
-          TintPiece *k = &piece[r->label[p]];
-          bool       paint = k->id && PAINT_SHARE * contrast[r->id[p]] >= contrast[k->id];
+  size_t w = (size_t) r->width, p = 0;
 
+  for (int pass = 0; pass < 2; pass++, p = 0)
+    for (int y = 0; y < r->height; y++)
+      for (int x = 0; x < r->width; x++, p++)
+        {
+          TintPiece *k = &piece[r->label[p]];
+          bool       paint;
+
+          if (!r->label[p])
+            continue;
+          paint = PAINT_SHARE * contrast[r->id[p]] >= contrast[k->id];
           if (paint && is_inside (r, x, y))
             visit_inside (r, contrast, k, r->id[p], pass);
           if (pass)
             continue;
+          k->paint += paint;
+          if (x > 0)
+            visit_border (r, piece, p, p - 1);
           if (x + 1 < r->width)
             visit_border (r, piece, p, p + 1);
+          if (y > 0)
+            visit_border (r, piece, p, p - w);
           if (y + 1 < r->height)
-            visit_border (r, piece, p, p + (size_t) r->width);
-          k->paint += paint;
+            visit_border (r, piece, p, p + w);
         }
 }
 
@@ -260,10 +262,11 @@ join_paints (const CeldScribbleLayer *r, TintPiece *piece, const uint32_t *soft,
 }
 
 static void
-paint_pieces (CeldScribbleLayer *r, const uint16_t *contrast, const TintPiece *piece)
+paint_pieces (CeldScribbleLayer *r, const uint16_t *contrast, const TintPiece *piece, const uint32_t *order, size_t n)
 {
-  for (size_t p = 0; p < r->pixels; p++)
+  for (size_t i = 0; i < n; i++)
     {
+      size_t   p = order[i];
       uint32_t id = piece[r->label[p]].id;
 
       if (!id || id == r->id[p])
@@ -281,9 +284,9 @@ CeldStatus
 celd_scribble_tints (CeldScribbleLayer *r)
 {
   uint16_t  *contrast = celd_alloc (r->n, sizeof *contrast);
-  uint32_t  *order = celd_alloc (r->pixels, sizeof *order);
+  uint32_t  *order = celd_alloc (r->pixels, sizeof *order), *soft = NULL;
   TintPiece *piece = NULL;
-  size_t     n, n_pieces;
+  size_t     n, n_pieces, n_soft;
   CeldStatus status = CELD_NO_MEMORY;
 
   if (!contrast || !order)
@@ -292,6 +295,7 @@ celd_scribble_tints (CeldScribbleLayer *r)
     contrast[i] = (uint16_t) (i ? contrast_of (r, (uint32_t) i) : 0);
   n = sort_pixels (r, contrast, order);
   memset (r->kind, 0, r->pixels);
+  memset (r->label, 0, r->pixels * sizeof *r->label);
   for (size_t i = 0; i < n; i++)
     {
       join_pixel (r, contrast, order[i]);
@@ -299,17 +303,19 @@ celd_scribble_tints (CeldScribbleLayer *r)
     }
   n_pieces = number_pieces (r, order, n);
   piece = celd_alloc0 (n_pieces + 1, sizeof *piece);
-  if (!piece)
+  soft = celd_alloc (n_pieces, sizeof *soft);
+  if (!piece || !soft)
     goto done;
   for (size_t i = n; i-- > 0;) /* the first of a piece is its strongest */
     piece[r->label[order[i]]].id = r->id[order[i]];
   measure_pieces (r, contrast, piece);
-  n = keep_soft (r, piece, n_pieces, order);
-  join_paints (r, piece, order, n);
-  paint_pieces (r, contrast, piece);
+  n_soft = keep_soft (r, piece, n_pieces, soft);
+  join_paints (r, piece, soft, n_soft);
+  paint_pieces (r, contrast, piece, order, n);
   status = CELD_OK;
 
 done:
+  celd_free (soft);
   celd_free (piece);
   celd_free (order);
   celd_free (contrast);
