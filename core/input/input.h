@@ -74,7 +74,6 @@ typedef struct
   uint32_t pixels, solid, interior;
   uint64_t opacity;
   bool     apart;                       /* in pixel art: no pixel of another cluster touches its pixels */
-  bool     is_ridge;                    /* solid pixels are a third, before sides and rims are merged with it */
   bool     is_label;
 } CeldScribbleCluster;
 

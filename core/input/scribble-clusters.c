@@ -274,10 +274,10 @@ find_apart (CeldScribbleLayer *r)
       }
 }
 
-/* Is the cluster a label?  Fringes of other strokes may have its colour, but no interior pixels, except for the soft
- * ends of brushes on paper.  In a lossy picture on paper a fringe may look like a pencil line, so that a label needs
- * interior pixels there.  In pixel art, where a stray pixel would be seen, a dot of one pixel is a label if strokes are
- * hard, or if it touches no other colour, as a fringe would. */
+/* Is the cluster a label?  Fringes of other strokes may have its colour, but hardly two thirds of it.  In a lossy
+ * picture on paper a fringe may look like a pencil line, so that a label needs interior pixels there.  In pixel art,
+ * where a stray pixel would be seen, a dot of one pixel is a label if strokes are hard, or if it touches no other colour,
+ * as a fringe would. */
 static bool
 is_label (const CeldScribbleLayer *r, const CeldScribbleCluster *k)
 {
@@ -285,8 +285,7 @@ is_label (const CeldScribbleLayer *r, const CeldScribbleCluster *k)
     return true;
   if (k->solid < CELD_LEAST_DOT || (r->lossy && r->paper && !has_interior (k)))
     return false;
-  return k->is_ridge || 3 * (size_t) k->solid >= k->pixels ||
-         (2 * (size_t) k->interior >= k->solid && has_interior (k) && !is_tint (r, k));
+  return 3 * (size_t) k->solid >= k->pixels;
 }
 
 /* Does the colour equal paper?  It may be nearer to a cluster all the same: the soft end of a brush. */
@@ -326,8 +325,6 @@ celd_scribble_clusters (CeldScribbleLayer *r, const CeldHost *host)
     }
   if (status == CELD_OK && r->n_clusters <= MANY_CLUSTERS)
     {
-      for (size_t k = 1; k < r->n_clusters && !r->lossy; k++)
-        r->cluster[k].is_ridge = 3 * (size_t) r->cluster[k].solid >= r->cluster[k].pixels;
       if (r->paper && !r->lossy)
         status = merge_parts (r, may_be_side);
       tally_clusters (r);

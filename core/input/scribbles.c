@@ -79,7 +79,7 @@ classify_row (void *data, int y)
       const uint32_t *p = r->id + i;
       int             left = x, right = r->width - 1 - x, above = y, below = r->height - 1 - y;
 
-      if (!*p || (r->paper && !differ (r, *p, r->paper)))
+      if (!*p)
         r->kind[i] = CELD_INTERIOR;
       else if (!r->hard && (in_fringe (r, p, left, right, 1) || in_fringe (r, p, above, below, (ptrdiff_t) width)))
         r->kind[i] = CELD_FRINGE;
