@@ -1,7 +1,8 @@
-/* Thin strokes on transparency whose colours vary, as where a filter has made a layer smaller.
+/* Thin strokes whose colours vary, as where a filter has made a layer smaller, and lines that are too thin.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
+#include "reading.h"
 #include "scribble-page.h"
 
 enum { STROKES = 6 };
@@ -73,11 +74,53 @@ a_hairline_that_looks_like_a_fringe (void)
     CHECK (seed_of[100 * WIDTH + 100 + x] == 1);
 }
 
+/* Has a line on paper in colour B, which is no label, the label of colour A? */
+static bool
+line_is_a_tint (int (*rgb)[3])
+{
+  static const char *const art[] = { "AACCCCCCCC", "AACCCCCCCC", "AACCBBBBBB", "AACCCCCCCC", NULL };
+  const size_t             cells = 86 * 86 * 86; /* of colour space, each a radius of 3 wide */
+  CeldScribbleLayer        r = reading_new (art, rgb, 3);
+  bool                     tint;
+
+  r.paper = 3;
+  r.kind = malloc (r.pixels);
+  r.label = malloc (r.pixels * sizeof *r.label);
+  r.head = celd_alloc (cells, sizeof *r.head);
+  for (size_t p = 0; p < r.pixels; p++)
+    r.kind[p] = r.id[p] == 2 ? CELD_FRINGE : CELD_SOLID;
+  for (size_t k = 0; k < cells; k++)
+    r.head[k] = CELD_NO_CLUSTER;
+  CHECK (celd_scribble_cluster_add (&r, 3) == CELD_OK && celd_scribble_cluster_add (&r, 1) == CELD_OK);
+  r.cluster[1].is_label = true;
+  r.colour[1].cluster = 1;
+  r.colour[2].cluster = CELD_NO_CLUSTER;
+  CHECK (celd_scribble_places (&r, NULL) == CELD_OK);
+  CHECK (r.label[25] && r.label[25] < CELD_QUEUED && !r.label[3]);
+  tint = r.label[25] == 1;
+  free (r.kind);
+  free (r.label);
+  reading_clear (&r);
+  return tint;
+}
+
+/* A line too thin to show its full colour has that of a label if it is a tint of it, but not if it is 20 off these. */
+static void
+a_thin_line_of_a_near_colour (void)
+{
+  int pink[3][3] = { { 200, 30, 40 }, { 231, 158, 163 }, { 255, 255, 255 } };
+  int orange[3][3] = { { 200, 30, 40 }, { 237, 172, 147 }, { 255, 255, 255 } };
+
+  CHECK (line_is_a_tint (pink));
+  CHECK (!line_is_a_tint (orange));
+}
+
 int
 main (void)
 {
   RUN (thin_strokes_have_no_interior);
   RUN (a_hairline_that_looks_like_a_fringe);
+  RUN (a_thin_line_of_a_near_colour);
   celd_palette_clear (&palette);
   return DONE;
 }
