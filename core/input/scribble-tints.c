@@ -71,7 +71,7 @@ sort_pixels (const CeldScribbleLayer *r, const uint16_t *contrast, uint32_t *ord
   for (size_t p = 0; p < r->pixels; p++)
     if (r->id[p] != r->paper)
       first[contrast[r->id[p]]]++;
-  for (int c = ALL_CONTRASTS; c > 0; c--)
+  for (int c = ALL_CONTRASTS; c >= 0; c--)
     {
       size_t of = first[c];
 
