@@ -3,15 +3,15 @@
  * The paint of a colour is one stroke, or lines that meet (joined-arrows.c); what other colours hide is unknown there,
  * so that one end that is seen tells where the head or dot is.  An arrow is left out if an end of it is hidden below others
  * and its place unknown (hidden-ends.c).  Two arrows of one colour with heads or dots may look like one where these are
- * hidden, so that on an arrow with a hidden end no other one may end; what a much larger piece of the same colour is
- * near to may be a part of that.
+ * hidden, so that on the paint of an arrow with a hidden end no other one may end; what a much larger piece of the same
+ * colour is near to may be a part of that.
  *
  * Cost: some passes over the paint of each arrow.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "base/base.h"
-#include "input/arrows.h"
+#include "input/joined-arrows.h"
 
 #include <math.h>
 
@@ -144,31 +144,44 @@ read_part (ColouredArrows *s, CeldArrowStroke *stroke, size_t k, CeldRelations *
   return status;
 }
 
+/* Is a place on the paint of a relation, or beside it up to a distance? */
+static bool
+is_on (const ColouredArrows *s, size_t relation, CeldPoint p, double distance)
+{
+  const CeldProblem *paint = &s->doubts.item[relation];
+
+  for (size_t i = paint->first; i < paint->first + paint->runs; i++)
+    {
+      const CeldPaintRun *run = &s->doubts.run[i];
+      CeldPoint           a = { run->x + 0.5, run->y + 0.5 }, b = { run->x + run->n - 0.5, run->y + 0.5 };
+
+      if (celd_distance_to_part (p, a, b) <= distance)
+        return true;
+    }
+  return false;
+}
+
 /* Does another arrow end on an arrow, away from its ends?  Then two of its colour may meet there. */
 static bool
-may_be_two (const ColouredArrows *s, const CeldArrowStroke *component, size_t relation)
+may_be_two (const ColouredArrows *s, size_t relation)
 {
-  const CeldColourStrokes *colours = s->paint.colours;
-  const CeldArrowEnd      *own = &s->end[2 * relation];
-  const size_t            *first = &colours->strokes.first[own->stroke];
+  const CeldArrowEnd *own = &s->end[2 * relation];
 
   for (size_t i = 0; i < s->n; i++)
     {
       CeldPoint p = s->end[i].place;
 
-      if (i / 2 == relation ||
-          fmin (celd_points_apart (own[0].place, p), celd_points_apart (own[1].place, p)) < AWAY * own->width)
-        continue;
-      for (size_t k = first[0]; k < first[1]; k++)
-        if (celd_points_apart (celd_stroke_point (component, colours->strokes.pixel[k]), p) <= own->width)
-          return true;
+      if (i / 2 != relation &&
+          fmin (celd_points_apart (own[0].place, p), celd_points_apart (own[1].place, p)) >= AWAY * own->width &&
+          is_on (s, relation, p, own->width))
+        return true;
     }
   return false;
 }
 
 /* Why an arrow is not clear in all, if so.  One with both ends in sight needs not be looked at any more. */
 static CeldArrowReason
-why_unclear (const ColouredArrows *s, const CeldArrowStroke *component, size_t relation)
+why_unclear (const ColouredArrows *s, size_t relation)
 {
   const CeldArrowEnd *end = &s->end[2 * relation];
 
@@ -176,14 +189,14 @@ why_unclear (const ColouredArrows *s, const CeldArrowStroke *component, size_t r
     return CELD_REASON_HIDDEN;
   if (celd_points_apart (end[0].place, end[1].place) < LEAST_ARROW * end->width)
     return CELD_REASON_SHORT;
-  if (!s->graded && !(end[0].visible && end[1].visible) && may_be_two (s, component, relation))
+  if (!s->graded && !(end[0].visible && end[1].visible) && may_be_two (s, relation))
     return CELD_REASON_MEETING;
   return CELD_REASON_NONE;
 }
 
 /* Gives relations the places of their ends, and removes and reports those that have none, or are too short. */
 static CeldStatus
-settle (ColouredArrows *s, const CeldArrowStroke *component, CeldRelations *relations, CeldProblems *problems)
+settle (ColouredArrows *s, CeldRelations *relations, CeldProblems *problems)
 {
   size_t     kept = s->first;
   CeldStatus status = CELD_OK;
@@ -200,7 +213,7 @@ settle (ColouredArrows *s, const CeldArrowStroke *component, CeldRelations *rela
       r.farther.y   = end[1].place.y;
       doubt->x      = (int) end[0].place.x;
       doubt->y      = (int) end[0].place.y;
-      doubt->reason = why_unclear (s, component, i);
+      doubt->reason = why_unclear (s, i);
       if (doubt->reason)
         status = celd_problem_copy (&s->doubts, i, problems);
       else
@@ -234,7 +247,7 @@ celd_coloured_arrows_read (const CeldColourStrokes *colours, const CeldArrowStro
   if (status == CELD_OK)
     {
       celd_arrow_ends_find (&mask, s.graded, s.end, s.n);
-      status = settle (&s, component, relations, problems);
+      status = settle (&s, relations, problems);
     }
   celd_free (s.end);
   celd_problems_clear (&s.doubts);

@@ -3,7 +3,8 @@
  * An arrow that is read by its colour ends where its paint does, if a head or dot is seen there.  Else, if most of the
  * paint there is hidden, or other paint goes on in its direction, or nearly so, its end may lie elsewhere.  Its place is
  * known all the same if another arrow ends there too, or at a place to which it leads below other paint, or if two
- * hidden ones lead to one place, or if the other paint is short.  Ends that are in sight tell first.
+ * hidden ones lead to one place, or if the other paint is short.  Ends that are in sight tell first; two that are hidden
+ * tell nothing of each other if they are of one stroke, since both were found in one reading of that.
  *
  * Cost: two passes over the paint of the arrow.
  *
@@ -249,15 +250,16 @@ find_common_place (const CeldStrokeMask *component, const CeldArrowEnd *end, con
   return leads_to (component, end, *place) && leads_to (component, other, *place);
 }
 
-/* May end i tell where end k is, which is hidden?  What fades or tapers is strongest at its nearer end: it does not
- * lead below others there, and one that goes straight on from it may hide more of it.  No arrow leads to an end along
- * the whole of the other arrow. */
+/* May end i tell where end k is, which is hidden?  Not if it is of the same stroke and hidden, too.  What fades or
+ * tapers is strongest at its nearer end: it does not lead below others there, and one that goes straight on from it may
+ * hide more of it.  No arrow leads to an end along the whole of the other arrow. */
 static bool
 may_tell (const CeldArrowEnd *ends, size_t k, size_t i, bool graded)
 {
   bool straight_on = ends[k].way.x * ends[i].way.x + ends[k].way.y * ends[i].way.y < -SIDE_BY_SIDE;
 
-  return i / 2 != k / 2 && !(graded && k % 2 == 0 && straight_on) &&
+  return i / 2 != k / 2 && (ends[i].visible || ends[i].stroke != ends[k].stroke) &&
+         !(graded && k % 2 == 0 && straight_on) &&
          celd_points_apart (ends[i].at, ends[k].at) <= celd_points_apart (ends[i ^ 1].at, ends[k].at);
 }
 

@@ -128,6 +128,41 @@ one_end_is_enough (void)
   CHECK (found >= 360);
 }
 
+/* Two of one colour, head to tail, of which the first begins and the second ends below others: both end where others
+ * do, but neither ends on the way of the other. */
+static void
+two_in_a_chain (void)
+{
+  uint32_t state = 6;
+  size_t   found = 0;
+
+  for (int i = 0; i < 200; i++)
+    {
+      CeldArrowStyle style = i % 2 ? CELD_ARROW_HEAD : CELD_ARROW_DOT;
+      double         angle = random_between (&state, 0, 6.28), w = random_between (&state, 3, 4.5), length = 14 * w;
+      CeldPaint      paint = blank (SIZE, SIZE);
+      Arrow          a[4] = { spoke (angle, length, w, style, true, false),
+                              spoke (angle + 2.2, length, w, style, false, false) };
+      Answer         answer;
+
+      for (int k = 2; k < 4; k++)
+        {
+          double away = k == 2 ? angle : angle + 2.2;
+          Point  end = { SIZE / 2. + length * cos (away), SIZE / 2. + length * sin (away) };
+
+          a[k] = through (end, away + (k == 2 ? 1.9 : -1.9), length, 1, 1.3 * w, style, false);
+        }
+      for (int k = 3; k >= 0; k--) /* what is painted first hides what follows */
+        draw_arrow (&paint, &a[k], COLOURS[k < 2 ? 0 : k - 1]);
+      answer = read_paint (&paint, style);
+      CHECK (answer.relations.n == count_read (&answer, a, 4, style));
+      found += answer.relations.n;
+      forget (&answer);
+      free (paint.data);
+    }
+  CHECK (found >= 780);
+}
+
 /* Each keeps its own colour, so that only the blue one cracks. */
 static void
 colours_stay (void)
@@ -159,6 +194,7 @@ main (void)
   RUN (tails_below_heads);
   RUN (two_that_look_like_one);
   RUN (one_end_is_enough);
+  RUN (two_in_a_chain);
   RUN (colours_stay);
   return DONE;
 }

@@ -28,8 +28,8 @@ end_at (double x, double y, double angle, bool visible)
                           .visible = visible };
 }
 
-/* An end of an arrow, the farther one or the nearer one, beside the nearer one of another arrow; the other ends are far
- * away and seen. */
+/* An end of an arrow, the farther one or the nearer one, beside the nearer one of another arrow, which is another
+ * stroke; the other ends are far away and seen. */
 static CeldArrowEnd
 put_beside (CeldArrowEnd one, bool farther, CeldArrowEnd two, int gap, bool graded)
 {
@@ -37,6 +37,7 @@ put_beside (CeldArrowEnd one, bool farther, CeldArrowEnd two, int gap, bool grad
   CeldArrowEnd   ends[4] = { end_at (5, 5, 0, true), end_at (5, 5, 0, true), two, end_at (5, 110, 0, true) };
 
   ends[farther] = one;
+  ends[2].stroke = ends[3].stroke = 1;
   celd_arrow_ends_find (&mask, graded, ends, 4);
   CHECK (ends[!farther].known && ends[3].known);
   free (mask.painted);
@@ -116,6 +117,7 @@ ends_in_sight_tell_first (void)
     end_at (70, 61, 2, true), end_at (110, 110, 0, true),
   };
 
+  ends[2].stroke = ends[3].stroke = 1;
   celd_arrow_ends_find (&mask, false, ends, 6);
   CHECK (is_at (ends[1], 70, 61));
   free (mask.painted);
@@ -134,6 +136,23 @@ short_ways_are_known (void)
   CHECK (is_at (beside (hidden, seen, SIZE, false), 56, 71));
   hidden.broken = true;
   CHECK (!beside (hidden, seen, SIZE, false).known);
+}
+
+/* Two arrows of one stroke were read together: where both ends are hidden, neither shows that the other is right. */
+static void
+hidden_ends_of_one_stroke_tell_nothing (void)
+{
+  for (int visible = 0; visible < 2; visible++)
+    {
+      CeldStrokeMask mask = square (SIZE);
+      CeldArrowEnd   ends[4] = {
+        end_at (5, 5, 0, true), end_at (50, 60, 0, false), end_at (50, 60, 3, visible), end_at (5, 110, 0, true),
+      };
+
+      celd_arrow_ends_find (&mask, false, ends, 4);
+      CHECK (ends[1].known == visible);
+      free (mask.painted);
+    }
 }
 
 /* An arrow whose paint ends beside another one does not go on below all of that. */
@@ -170,6 +189,7 @@ main (void)
   RUN (nearer_ends_do_not_lead);
   RUN (ends_in_sight_tell_first);
   RUN (short_ways_are_known);
+  RUN (hidden_ends_of_one_stroke_tell_nothing);
   RUN (never_below_a_whole_arrow);
   RUN (own_ends_do_not_count);
   return DONE;
