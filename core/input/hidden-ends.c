@@ -3,23 +3,29 @@
  * An arrow that is read by its colour ends where its paint does, if a head or dot is seen there.  Else, if most of the
  * paint there is hidden, or other paint goes on in its direction, or nearly so, its end may lie elsewhere.  Its place is
  * known all the same if another arrow ends there too, or at a place to which it leads below other paint, or if two
- * hidden ones lead to one place, or if the other paint is short.  Ends that are in sight tell first; two that are hidden
- * tell nothing of each other if they are of one stroke, since both were found in one reading of that.
+ * hidden ones lead to one place, or if the other paint is short.  It is known, too, if others end about where that
+ * paint hides all the width of the arrow, which it does for a few widths only.  Ends that are in sight tell first; two
+ * that are hidden tell nothing of each other if they are of one stroke, since both were found in one reading of that.
  *
  * Cost: two passes over the paint of the arrow.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "base/base.h"
-#include "input/arrows.h"
+#include "input/joined-arrows.h"
 
 #include <math.h>
 
 /* All chosen; widths are those of the shaft. */
+#define MOST_BEYOND      100 /* pixels of paint of an arrow beyond its end; heads are shorter */
 #define HIDING           0.8 /* widths of other paint in front of an end, at least, and ... */
 #define HIDING_LEAST     3   /* ... as many pixels more, that may hide it */
 #define MOST_OTHERS      1.2 /* of the paint of an end: all paint there */
 #define SHORT_COVER      1.2 /* widths of other paint in front, and as many pixels more, below which an end is near */
+#define ABOUT_COVER      2.2 /* widths, and HIDING_LEAST pixels, for which other paint hides all the width of an arrow
+                              * whose end is about there, at most, ... */
+#define ABOUT_HALF       0.35 /* ... where all of it is so many widths to either side, ... */
+#define ABOUT_REACH      2   /* ... and widths, and NEIGHBOUR_LEAST pixels, from there to where others end */
 #define NEIGHBOUR        2.5 /* widths between an end that is near and another one that tells where it is, and ... */
 #define NEIGHBOUR_LEAST  3   /* ... as many pixels */
 #define FAINTER          0.6 /* of the opacity of an end: what is fainter hides nothing of it */
@@ -60,22 +66,27 @@ direction_at (const CeldArrowStroke *stroke, const bool *seen, CeldPoint at, Cel
   return length > 0 ? (CeldPoint) { sum.x / length, sum.y / length } : (CeldPoint) { 0, 0 };
 }
 
-/* How far the paint of an arrow that is seen reaches beyond its end in a direction; *width: its width there. */
+/* How far the paint of an arrow that is seen goes on beyond its end in a direction, without a break; *width: its width
+ * there. */
 static double
 reach_beyond (const CeldArrowStroke *stroke, const bool *seen, CeldPoint at, CeldPoint way, double *width)
 {
-  double most = 0, n = 0, near = fmax (6, 2 * *width);
+  bool   painted[MOST_BEYOND + 1] = { false };
+  int    most = 0;
+  double n = 0, near = fmax (6, 2 * *width);
 
   for (size_t i = 0; i < stroke->n; i++)
     {
       CeldPoint p  = celd_stroke_point (stroke, stroke->pixel[i]);
-      double    dx = p.x - at.x, dy = p.y - at.y;
+      double    dx = p.x - at.x, dy = p.y - at.y, along = dx * way.x + dy * way.y;
 
       n += hypot (dx, dy) <= near;
-      if (seen[i] && fabs (dx * way.y - dy * way.x) <= 1)
-        most = fmax (most, dx * way.x + dy * way.y);
+      if (seen[i] && fabs (dx * way.y - dy * way.x) <= 1 && along >= 0 && along < MOST_BEYOND)
+        painted[(int) along] = true;
     }
   *width = fmin (*width, n / near);
+  while (painted[most] || (most < MOST_BEYOND && painted[most + 1]))
+    most++;
   return most;
 }
 
@@ -163,6 +174,19 @@ is_broken (const CeldArrowStroke *stroke, const CeldColourStrokes *colours, size
   return false;
 }
 
+/* Does other paint hide all the width of an arrow that goes on beyond an end, at a distance in a direction? */
+static bool
+is_all_hidden (const CeldColouredPaint *paint, const CeldArrowEnd *end, CeldPoint way, double d, double width,
+               double opacity)
+{
+  CeldPoint side = { -way.y, way.x }, ahead = celd_moved (end->at, way, d);
+
+  for (int k = -1; k <= 1; k++)
+    if (!may_hide (paint, celd_moved (ahead, side, k * ABOUT_HALF * width), opacity))
+      return false;
+  return true;
+}
+
 /* Looks for other paint ahead of an end, in its direction and on either side of that.  strong: no paint of the arrow is
  * more opaque than that of the end. */
 static void
@@ -171,20 +195,28 @@ look_ahead (const CeldColouredPaint *paint, const CeldArrowStroke *stroke, const
 {
   double opacity = strong ? opacity_at (paint, stroke, seen, end->at, end->width) : 0;
 
-  end->is_near = true;
+  end->is_near = end->is_about = true;
   for (int ray = 0; ray < RAYS; ray++)
     {
-      double    width = end->width, a = ASIDE * (2. * ray / (RAYS - 1) - 1), start, d;
+      double    width = end->width, a = ASIDE * (2. * ray / (RAYS - 1) - 1), start, d, all, most;
       CeldPoint way = { end->way.x * cos (a) - end->way.y * sin (a), end->way.x * sin (a) + end->way.y * cos (a) };
 
-      d = start = reach_beyond (stroke, seen, end->at, way, &width) + 1;
+      d = all = start = reach_beyond (stroke, seen, end->at, way, &width) + 1;
       while (d - start <= SHORT_COVER * width + HIDING_LEAST &&
              may_hide (paint, (CeldPoint) { end->at.x + d * way.x, end->at.y + d * way.y }, opacity))
         d += 0.5;
       end->visible &= d - start <= HIDING * width + HIDING_LEAST;
       end->is_near &= d - start <= SHORT_COVER * width + HIDING_LEAST;
+      most = ABOUT_COVER * width + HIDING_LEAST;
+      while (all <= most && is_all_hidden (paint, end, way, all, width, opacity))
+        all += 0.5;
+      end->is_about &= all <= most;
       if (ray == RAYS / 2)
-        end->middle = (CeldPoint) { end->at.x + d / 2 * way.x, end->at.y + d / 2 * way.y };
+        {
+          end->middle = celd_moved (end->at, way, d / 2);
+          end->about  = celd_moved (end->at, way, all / 2);
+          end->lean   = width;
+        }
     }
 }
 
@@ -291,7 +323,7 @@ find_by_others (const CeldStrokeMask *component, bool graded, bool in_sight, Cel
 static void
 find_beside (CeldArrowEnd *ends, size_t n, size_t k)
 {
-  double nearest = NEIGHBOUR * ends[k].width + NEIGHBOUR_LEAST;
+  double nearest = NEIGHBOUR * ends[k].lean + NEIGHBOUR_LEAST;
 
   for (size_t i = 0; i < n; i++)
     {
@@ -302,6 +334,25 @@ find_beside (CeldArrowEnd *ends, size_t n, size_t k)
       nearest       = d;
       ends[k].known = true;
       ends[k].place = ends[i].at;
+    }
+}
+
+/* The place of end k, which is about where arrows of other strokes end: that of the nearest one, if it is known. */
+static void
+find_about (CeldArrowEnd *ends, size_t n, size_t k)
+{
+  double nearest = ABOUT_REACH * ends[k].lean + NEIGHBOUR_LEAST;
+
+  for (size_t i = 0; i < n; i++)
+    {
+      CeldPoint p = ends[i].known ? ends[i].place : ends[i].is_about ? ends[i].about : ends[i].at;
+      double    d = celd_points_apart (p, ends[k].about);
+
+      if (ends[i].stroke == ends[k].stroke || d > nearest)
+        continue;
+      nearest       = d;
+      ends[k].known = true;
+      ends[k].place = ends[i].known ? p : ends[k].about;
     }
 }
 
@@ -328,4 +379,7 @@ celd_arrow_ends_find (const CeldStrokeMask *component, bool graded, CeldArrowEnd
           ends[k].place = ends[k].middle;
         }
     }
+  for (size_t k = 0; k < n; k++)
+    if (!ends[k].known && !ends[k].broken && ends[k].is_about)
+      find_about (ends, n, k);
 }

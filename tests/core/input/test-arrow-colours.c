@@ -163,6 +163,31 @@ two_in_a_chain (void)
   CHECK (found >= 780);
 }
 
+/* A dot is so broad that what ends below it may end beside its middle. */
+static void
+ends_below_dots (void)
+{
+  for (int i = 0; i < 24; i++)
+    {
+      double    angle = 0.26 * i, w = 4, off = 2.65 * w;
+      Point     middle = { SIZE / 2., SIZE / 2. };
+      Point     end = { middle.x - off * sin (angle), middle.y + off * cos (angle) };
+      Point     far = { middle.x + 80 * sin (angle), middle.y - 80 * cos (angle) };
+      Arrow     above = arrow_at (far, angle + 1.5708, 80, 2 * w, 0, 0, DOT, 3.2 * w);
+      Arrow     below = arrow_at (end, angle, 90, w, 0, 0, DOT, 1.6 * w);
+      CeldPaint paint = blank (SIZE, SIZE);
+      Answer    answer;
+
+      draw_arrow (&paint, &above, COLOURS[0]);
+      draw_arrow (&paint, &below, COLOURS[1]);
+      answer = read_paint (&paint, CELD_ARROW_DOT);
+      CHECK (answer.relations.n == (size_t) is_read (&answer, &above, CELD_ARROW_DOT) +
+                                     (size_t) is_read (&answer, &below, CELD_ARROW_DOT));
+      forget (&answer);
+      free (paint.data);
+    }
+}
+
 /* Each keeps its own colour, so that only the blue one cracks. */
 static void
 colours_stay (void)
@@ -195,6 +220,7 @@ main (void)
   RUN (two_that_look_like_one);
   RUN (one_end_is_enough);
   RUN (two_in_a_chain);
+  RUN (ends_below_dots);
   RUN (colours_stay);
   return DONE;
 }

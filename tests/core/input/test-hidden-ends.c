@@ -25,7 +25,7 @@ static CeldArrowEnd
 end_at (double x, double y, double angle, bool visible)
 {
   return (CeldArrowEnd) { .at = { x, y }, .place = { x, y }, .way = { cos (angle), sin (angle) }, .width = 6,
-                          .visible = visible };
+                          .lean = 6, .visible = visible };
 }
 
 /* An end of an arrow, the farther one or the nearer one, beside the nearer one of another arrow, which is another
@@ -134,6 +134,8 @@ short_ways_are_known (void)
   hidden.middle  = (CeldPoint) { 54, 60 };
   CHECK (is_at (beside (hidden, end_at (5, 110, 0, true), SIZE, false), 54, 60));
   CHECK (is_at (beside (hidden, seen, SIZE, false), 56, 71));
+  hidden.lean = 3;
+  CHECK (is_at (beside (hidden, seen, SIZE, false), 54, 60)); /* its head is wide, but not its line */
   hidden.broken = true;
   CHECK (!beside (hidden, seen, SIZE, false).known);
 }
@@ -153,6 +155,29 @@ hidden_ends_of_one_stroke_tell_nothing (void)
       CHECK (ends[1].known == visible);
       free (mask.painted);
     }
+}
+
+/* An arrow that others may hide for a few widths ends there if others do, at their place if that is known. */
+static void
+ends_about_others (void)
+{
+  CeldArrowEnd hidden = end_at (50, 60, 0, false), other = end_at (62, 71, 0.5, false);
+
+  hidden.about = (CeldPoint) { 56, 60 };
+  CHECK (!beside (hidden, other, SIZE, true).known);
+  hidden.is_about = true;
+  CHECK (is_at (beside (hidden, other, SIZE, true), 56, 60));
+  other.visible = true;
+  CHECK (is_at (beside (hidden, other, SIZE, true), 62, 71));
+  CHECK (!beside (hidden, end_at (62, 76, 0.5, true), SIZE, true).known);
+  hidden.lean = 3;
+  CHECK (!beside (hidden, other, SIZE, true).known);
+  hidden.lean   = 6;
+  hidden.broken = true;
+  CHECK (!beside (hidden, other, SIZE, true).known);
+  hidden.broken = false;
+  hidden.stroke = 1;
+  CHECK (!beside (hidden, other, SIZE, true).known);
 }
 
 /* An arrow whose paint ends beside another one does not go on below all of that. */
@@ -180,6 +205,71 @@ own_ends_do_not_count (void)
   free (mask.painted);
 }
 
+/* Paint in a square: that of an arrow, and what else hides it or lies beside it. */
+typedef struct { int left, top, right, bottom; bool own; } Box;
+
+/* The end at (50,60) of an arrow of width 5 that comes from the left, among some paint. */
+static CeldArrowEnd
+end_among (const Box *box, int n)
+{
+  CeldStrokeMask    mask = { .width = SIZE, .height = SIZE, .painted = calloc (SIZE, SIZE) };
+  CeldPaint         paint = { SIZE, SIZE, SIZE, malloc (4 * SIZE * SIZE) };
+  CeldArrowLayer    layer = { .paint = &paint, .strongest = 255 };
+  CeldArrowStroke   stroke = { .width = SIZE, .height = SIZE };
+  uint32_t         *pixel = malloc (SIZE * SIZE * sizeof *pixel);
+  bool             *seen = malloc (SIZE * SIZE), never = false;
+  size_t            first[2] = { 0, 0 };
+  int               colour = 0;
+  CeldColourStrokes colours = { { pixel, first, 1, 0 }, &colour, &never, &never, seen, 0, 0, 0, 0, 0 };
+  CeldColouredPaint coloured = { &mask, &layer, &colours };
+  CeldArrowEnd      end;
+
+  memset (paint.data, 255, 4 * SIZE * SIZE);
+  for (int k = 0; k < n; k++)
+    for (int y = box[k].top; y < box[k].bottom; y++)
+      for (int x = box[k].left; x < box[k].right; x++)
+        {
+          mask.painted[y * SIZE + x] = 1;
+          if (box[k].own)
+            {
+              seen[stroke.n]    = true;
+              pixel[stroke.n++] = (uint32_t) ((y + 1) * (SIZE + 2) + x + 1);
+            }
+        }
+  stroke.pixel = pixel;
+  first[1]     = stroke.n;
+  end = celd_arrow_end (&coloured, &stroke, 0, (CeldPoint) { 50, 60 }, (CeldPoint) { 10, 60 }, 5, CELD_SIGHT_NONE);
+  free (mask.painted);
+  free (paint.data);
+  free (pixel);
+  free (seen);
+  return end;
+}
+
+static const Box LINE = { 10, 58, 50, 62, true };
+
+/* Its own paint farther on, where nothing leads to it, does not count as a part of the end. */
+static void
+what_follows_after_a_break (void)
+{
+  CHECK (end_among ((Box[]) { LINE }, 1).visible);
+  CHECK (!end_among ((Box[]) { LINE, { 50, 30, 62, 90, false } }, 2).visible);
+  CHECK (end_among ((Box[]) { LINE, { 80, 30, 85, 90, true }, { 85, 30, 110, 90, false } }, 3).visible);
+}
+
+/* Only what is as wide as an arrow hides it. */
+static void
+what_hides_all_the_width (void)
+{
+  CeldArrowEnd broad = end_among ((Box[]) { LINE, { 50, 30, 61, 90, false } }, 2);
+  CeldArrowEnd thin = end_among ((Box[]) { LINE, { 50, 59, 110, 61, false } }, 2);
+
+  CHECK (!broad.visible && !broad.is_near && broad.is_about && hypot (broad.about.x - 56, broad.about.y - 60) < 2);
+  CHECK (!thin.visible && !thin.is_near && thin.is_about && hypot (thin.about.x - 51, thin.about.y - 60) < 2);
+  CHECK (!end_among ((Box[]) { LINE, { 50, 30, 70, 90, false } }, 2).is_about);
+  CHECK (fabs (broad.lean - 4) < 1);
+}
+
 int
 main (void)
 {
@@ -190,6 +280,9 @@ main (void)
   RUN (ends_in_sight_tell_first);
   RUN (short_ways_are_known);
   RUN (hidden_ends_of_one_stroke_tell_nothing);
+  RUN (ends_about_others);
+  RUN (what_follows_after_a_break);
+  RUN (what_hides_all_the_width);
   RUN (never_below_a_whole_arrow);
   RUN (own_ends_do_not_count);
   return DONE;
