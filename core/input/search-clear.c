@@ -20,7 +20,8 @@
 #define DOT_MARGIN         0.5  /* ... or if it has a dot, ... */
 #define DOUBT_MARGIN       1    /* ... and more for each doubt, ... */
 #define MAY_PASS_MARGIN    0.5  /* ... or for one that may pass, because its end is marked by others */
-#define SHORT_MARGIN       2    /* of a short arrow with a head */
+#define SHORT_MARGIN       2    /* of a short arrow with a head, ... */
+#define NEAR_MARGIN        2    /* ... or of one with a head or dot that ends near others, but not where they do */
 #define AS_GOOD_MARGIN     0.02 /* of choices that are as good */
 #define ARROW_MOST_REST    0.35 /* area of unexplained paint that is next to an arrow with a head, ... */
 #define CERTAIN_MOST_REST  1    /* ... to one that is certain, ... */
@@ -31,7 +32,8 @@
 #define ROUND_MARGIN       3    /* ... is so large */
 #define SHORTEST           7    /* length of an arrow */
 #define PROFILE_MARGIN     2    /* of an arrow that fades or tapers, ... */
-#define PROFILE_MOST_REST  1.5  /* ... and area of unexplained paint next to it */
+#define PROFILE_MOST_REST  1.5  /* ... and area of unexplained paint next to it, ... */
+#define PROFILE_MORE_REST  3    /* ... or next to one that is certain */
 #define MOST_OF_VALUES     0.8  /* cost of its values at its ends */
 #define MOST_OF_ARROW      8    /* cost of an arrow that is clear, ... */
 #define MOST_OF_HEAD       1.6  /* ... of its head, ... */
@@ -131,32 +133,41 @@ margin_needed (const CeldClearness *r, size_t i)
   return r->s->style == CELD_ARROW_DOT ? DOT_MARGIN : is_in_crowd (r, i) ? CROWD_MARGIN : CLEAR_MARGIN;
 }
 
+/* May arrow i end where others do that are near its ends?  Those that fade or taper do so less plainly. */
+static bool
+may_end_near (const CeldClearness *r, size_t i)
+{
+  const size_t *place = celd_chosen_shaft (r->s, i)->place;
+
+  return r->margin[i] < (celd_search_has_profiles (r->s) ? CERTAIN_MARGIN : NEAR_MARGIN) &&
+         !(celd_search_is_apart (r->s, place[0]) && celd_search_is_apart (r->s, place[1]));
+}
+
 /* Does nothing round an arrow speak against it, whatever its margin? */
 static bool
 is_explained (const CeldClearness *r, size_t i)
 {
   const CeldArrowSearch *s = r->s;
-  const CeldShaft       *shaft = celd_chosen_shaft (s, i);
   double                 most = s->style == CELD_ARROW_DOT ? DOT_MOST_REST
                                 : r->margin[i] < CERTAIN_MARGIN ? ARROW_MOST_REST
                                 : CERTAIN_MOST_REST;
 
-  return r->paint.rest[i] <= most && celd_search_is_apart (s, shaft->place[0]) &&
-         celd_search_is_apart (s, shaft->place[1]) && !celd_chosen_is_crossed_twice (s, i);
+  return r->paint.rest[i] <= most && !may_end_near (r, i) && !celd_chosen_is_crossed_twice (s, i);
 }
 
-/* The same for an arrow that fades or tapers. */
+/* Why an arrow that fades or tapers is unclear. */
 static CeldArrowReason
 why_profile_unclear (const CeldClearness *r, size_t i)
 {
   const CeldArrowSearch *s = r->s;
   const CeldArrowOption *o = &s->option[s->choice.item[i]];
   const CeldShaft       *shaft = &s->shaft[o->shaft];
+  bool                   certain = r->margin[i] >= CERTAIN_MARGIN;
 
   if (is_double (r, i))
     return CELD_REASON_ALIKE;
-  if (r->paint.rest[i] > PROFILE_MOST_REST || s->passed[o->shaft] || !celd_search_is_apart (s, shaft->place[0]) ||
-      !celd_search_is_apart (s, shaft->place[1]))
+  if (r->paint.rest[i] > (certain ? PROFILE_MORE_REST : PROFILE_MOST_REST) || s->passed[o->shaft] ||
+      may_end_near (r, i))
     return CELD_REASON_MEETING;
   if (r->agreed[i])
     return CELD_REASON_NONE;
@@ -165,7 +176,7 @@ why_profile_unclear (const CeldClearness *r, size_t i)
   if (shaft->length < SHORTEST * s->width)
     return CELD_REASON_SHORT;
   return !celd_search_shows_end (s, shaft->place[0]) || !celd_search_shows_end (s, shaft->place[1]) ||
-         celd_chosen_is_crossed_twice (s, i) || celd_chosen_passes_end (s, i) ||
+         (celd_chosen_is_crossed_twice (s, i) && !certain) || celd_chosen_passes_end (s, i) ||
          r->margin[i] < PROFILE_MARGIN ? CELD_REASON_MEETING : CELD_REASON_NONE;
 }
 
