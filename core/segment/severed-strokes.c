@@ -99,11 +99,8 @@ renumber (StrokeJoiner *j, CeldStrokes *strokes)
     j->parent[k] = j->parent[k] == k ? (uint32_t) n++ : j->parent[j->parent[k]];
   for (size_t i = 0; i < strokes->n_pieces; i++)
     strokes->piece[i].stroke = j->parent[strokes->piece[i].stroke];
-  for (size_t k = 0; k < n; k++)
-    strokes->total[k] = 0;
-  for (size_t i = 0; i < strokes->n_pieces; i++)
-    strokes->total[strokes->piece[i].stroke] += strokes->piece[i].paper;
   strokes->n_strokes = n;
+  celd_strokes_sum (j->task->basins, strokes);
 }
 
 CeldStatus

@@ -119,18 +119,36 @@ mark_spills (CeldStrokes *strokes, double *best, bool *has_spill)
   return any;
 }
 
+/* ------------------------------------------------------------------ the whole */
+
+static bool
+is_in_core (const CeldSegmentTask *task, const CeldStrokePiece *piece)
+{
+  return task->basins->basin[piece->basin].solid;
+}
+
+/* Did a stroke run on into a solid area that it is not meant for? */
+static bool
+ran_into_core (const CeldStrokes *strokes, size_t stroke)
+{
+  return (double) strokes->in_cores[stroke] < CORE_SHARE * (double) strokes->total[stroke];
+}
+
 bool
 celd_stroke_piece_is_spill (const CeldSegmentTask *task, const CeldStrokePiece *piece)
 {
   CeldStrokeOverlap        key = { task->basins->component[piece->basin], piece->label, piece->stroke, 0, 0, false };
-  const CeldStrokeOverlap *overlap = bsearch (&key, task->painted.overlap, task->painted.n, sizeof key,
-                                              celd_stroke_overlap_compare);
+  const CeldStrokeOverlap *overlap;
 
+  if (is_in_core (task, piece))
+    return ran_into_core (&task->painted, piece->stroke);
+  overlap = bsearch (&key, task->painted.overlap, task->painted.n, sizeof key, celd_stroke_overlap_compare);
   return overlap && overlap->spill;
 }
 
+/* Finds the spills of all strokes and removes their seeds. */
 static CeldStatus
-remove_behind_contours (CeldSegmentTask *task)
+remove_spills (CeldSegmentTask *task)
 {
   CeldStrokes *strokes = &task->painted;
   double      *best = celd_alloc (strokes->n_strokes, sizeof *best);
@@ -138,41 +156,20 @@ remove_behind_contours (CeldSegmentTask *task)
   CeldStatus   status = best && has_spill ? CELD_OK : CELD_NO_MEMORY;
 
   while (status == CELD_OK && mark_spills (strokes, best, has_spill))
-    task->spilled = true;
+    ;
   for (size_t i = 0; i < strokes->n_pieces && status == CELD_OK; i++)
-    if (has_spill[strokes->piece[i].stroke] && celd_stroke_piece_is_spill (task, &strokes->piece[i]))
-      status = remove_pixels (task, &strokes->piece[i], true);
+    {
+      const CeldStrokePiece *piece = &strokes->piece[i];
+      bool                   in_core = is_in_core (task, piece);
+
+      if ((in_core || has_spill[piece->stroke]) && celd_stroke_piece_is_spill (task, piece))
+        {
+          task->spilled = true;
+          status = remove_pixels (task, piece, !in_core);
+        }
+    }
   celd_free (best);
   celd_free (has_spill);
-  return status;
-}
-
-/* ------------------------------------------------------------------ in solid areas */
-
-static CeldStatus
-remove_in_solid_areas (CeldSegmentTask *task)
-{
-  const CeldStrokes *strokes = &task->painted;
-  const CeldBasin   *basin = task->basins->basin;
-  size_t            *in_cores = celd_alloc0 (strokes->n_strokes, sizeof *in_cores); /* pixels of each stroke */
-  CeldStatus         status = in_cores ? CELD_OK : CELD_NO_MEMORY;
-
-  for (size_t i = 0; i < strokes->n_pieces && status == CELD_OK; i++)
-    {
-      const CeldStrokePiece *piece = &strokes->piece[i];
-
-      if (basin[piece->basin].solid)
-        in_cores[piece->stroke] += (size_t) (piece->end - piece->x) - piece->paper;
-    }
-  for (size_t i = 0; i < strokes->n_pieces && status == CELD_OK; i++)
-    {
-      const CeldStrokePiece *piece = &strokes->piece[i];
-
-      if (basin[piece->basin].solid &&
-          (double) in_cores[piece->stroke] < CORE_SHARE * (double) strokes->total[piece->stroke])
-        status = remove_pixels (task, piece, false);
-    }
-  celd_free (in_cores);
   return status;
 }
 
@@ -187,8 +184,6 @@ celd_spills_remove (const CeldHost *host, CeldSegmentTask *task)
   if (status == CELD_OK)
     status = celd_strokes_overlap (task->basins, task->basins->component, &task->painted);
   if (status == CELD_OK && soft)
-    status = remove_behind_contours (task);
-  if (status == CELD_OK && soft)
-    status = remove_in_solid_areas (task);
+    status = remove_spills (task);
   return status == CELD_OK && soft ? celd_progress (host, 1) : status;
 }

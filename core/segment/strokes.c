@@ -224,8 +224,24 @@ celd_strokes_clear (CeldStrokes *strokes)
 {
   celd_free (strokes->piece);
   celd_free (strokes->total);
+  celd_free (strokes->in_cores);
   celd_free (strokes->overlap);
   *strokes = (CeldStrokes) { 0 };
+}
+
+void
+celd_strokes_sum (const CeldBasins *basins, CeldStrokes *strokes)
+{
+  for (size_t k = 0; k < strokes->n_strokes; k++)
+    strokes->total[k] = strokes->in_cores[k] = 0;
+  for (size_t i = 0; i < strokes->n_pieces; i++)
+    {
+      const CeldStrokePiece *piece = &strokes->piece[i];
+
+      strokes->total[piece->stroke] += piece->paper;
+      if (basins->basin[piece->basin].solid)
+        strokes->in_cores[piece->stroke] += (size_t) (piece->end - piece->x) - piece->paper;
+    }
 }
 
 CeldStatus
@@ -236,8 +252,9 @@ celd_strokes_new (const CeldSegmentTask *task, const uint32_t *part, CeldStrokes
 
   if (status == CELD_OK)
     {
-      made.total = celd_alloc0 (made.n_strokes, sizeof *made.total);
-      status = made.total ? CELD_OK : CELD_NO_MEMORY;
+      made.total    = celd_alloc (made.n_strokes, sizeof *made.total);
+      made.in_cores = celd_alloc (made.n_strokes, sizeof *made.in_cores);
+      status = made.total && made.in_cores ? CELD_OK : CELD_NO_MEMORY;
     }
   if (status == CELD_OK && part)
     status = celd_strokes_overlap (task->basins, part, &made);
@@ -246,8 +263,7 @@ celd_strokes_new (const CeldSegmentTask *task, const uint32_t *part, CeldStrokes
       celd_strokes_clear (&made);
       return status;
     }
-  for (size_t i = 0; i < made.n_pieces; i++)
-    made.total[made.piece[i].stroke] += made.piece[i].paper;
+  celd_strokes_sum (task->basins, &made);
   *strokes = made;
   return CELD_OK;
 }

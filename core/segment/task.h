@@ -69,6 +69,7 @@ typedef struct
   CeldStrokePiece   *piece;     /* in reading order */
   size_t             n_pieces;
   size_t            *total;     /* of stroke k: its pixels of paper */
+  size_t            *in_cores;  /* of stroke k: its pixels of ink in solid basins */
   size_t             n_strokes;
   CeldStrokeOverlap *overlap;   /* by part, label, stroke; ink alone (part 0) is left out */
   size_t             n;
@@ -139,6 +140,9 @@ CeldStatus celd_task_drop_ink_seeds (CeldSegmentTask *task);
  * enclosure or merged; NULL: no overlaps are computed. */
 CeldStatus celd_strokes_new (const CeldSegmentTask *task, const uint32_t *part, CeldStrokes *strokes);
 void       celd_strokes_clear (CeldStrokes *strokes);
+
+/* Computes `total` and `in_cores`, which have room for n_strokes. */
+void celd_strokes_sum (const CeldBasins *basins, CeldStrokes *strokes);
 
 /* severed-strokes.c: makes one stroke of those that other paint or ink cut in two.  Overlaps are not updated. */
 CeldStatus celd_strokes_join_severed (const CeldSegmentTask *task, CeldStrokes *strokes);

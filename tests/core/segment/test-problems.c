@@ -154,6 +154,22 @@ spills_are_not_reported (void)
     }
 }
 
+/* The same across a bold contour: what is left of the stroke is less than what lies on that. */
+static void
+spills_in_solid_areas_are_not_reported (void)
+{
+  static const char *const bold[] = { "1111000222222", "1111000222222", "1111000222222", "1111000222222", NULL };
+  static const char *const painted[] = { "..AAAAAAAAAA.", ".......BBBBBB", ".......BBBBBB", ".......BBBBBB", NULL };
+  static const char *const labels[] = { "AAAABBBBBBBBB", "AAAABBBBBBBBB", "AAAABBBBBBBBB", "AAAABBBBBBBBB", NULL };
+  Case                     c;
+
+  open_case (&c, bold, painted, 2);
+  CHECK (celd_spills_remove (NULL, &c.sketch.task) == CELD_OK);
+  report_on (&c, labels);
+  NEAR (c.problems.n, 0, 0);
+  case_close (&c);
+}
+
 static void
 a_lost_colour_is_reported_once (void)
 {
@@ -389,6 +405,7 @@ main (void)
   RUN (half_a_stroke_and_specks_are_not_reported);
   RUN (a_long_stroke_is_reported_whatever_its_share);
   RUN (spills_are_not_reported);
+  RUN (spills_in_solid_areas_are_not_reported);
   RUN (a_lost_colour_is_reported_once);
   RUN (a_lost_colour_of_outlines_is_not_reported);
   RUN (closed_regions_without_a_stroke_are_unreached);
