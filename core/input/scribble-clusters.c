@@ -276,8 +276,8 @@ find_apart (CeldScribbleLayer *r)
 
 /* Is the cluster a label?  Fringes of other strokes may have its colour, but hardly two thirds of it.  In a lossy
  * picture on paper a fringe may look like a pencil line, so that a label needs interior pixels there.  In pixel art,
- * where a stray pixel would be seen, a dot of one pixel is a label if strokes are hard, or if it touches no other colour,
- * as a fringe would. */
+ * where a stray pixel would be seen, a dot of one pixel is a label if strokes are hard, or if it touches no other
+ * colour, as a fringe would. */
 static bool
 is_label (const CeldScribbleLayer *r, const CeldScribbleCluster *k)
 {

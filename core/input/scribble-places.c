@@ -14,8 +14,8 @@
 #include <limits.h>
 
 /* Distances of colours in steps of 1/255; chosen. */
-#define TINT_ERROR    12        /* between a thin line and its label's colour mixed with paper, at most; measured: with 30
-                                   half as many colours again of thin strokes were lost */
+#define TINT_ERROR    12        /* between a thin line and its label's colour mixed with paper, at most; measured: with
+                                 * 30 half as many colours again of thin strokes were lost */
 #define LINE_CONTRAST 60        /* between a line and paper, at least */
 #define LEAST_MIXTURE 0.3       /* part of its label's colour in a thin line; chosen */
 

@@ -1,16 +1,16 @@
 /* Spills: paint that ran on through a contour, and is not meant for what lies behind.
  *
- * A spill says nothing about the region behind the contour, but would outweigh the cost of cutting that region at a narrow
- * place.  So the overlap of a stroke with a component is weighed by the odds that the stroke is meant for it: the stroke's
- * pixels there to those elsewhere, times the pixels of its label there to those of others.  Below LEAST_ODDS, or
- * LESSER_ODDS where other paint outweighs the label's, the overlap is a spill and is ignored; then what is left is weighed
- * again, because spills speak for no label.  If correct paint outweighs foreign paint 3:1, this finds every spill of a
- * stroke that has a quarter of its paint outside the component; a label alone in its component, a stroke within one
- * component, or where a stroke is most likely meant, is never a spill.  What other paint cut off a stroke is weighed as
- * part of it.
+ * A spill says nothing about the region behind the contour, but would outweigh the cost of cutting that region at a
+ * narrow place.  So the overlap of a stroke with a component is weighed by the odds that the stroke is meant for it:
+ * the stroke's pixels there to those elsewhere, times the pixels of its label there to those of others.  Below
+ * LEAST_ODDS, or LESSER_ODDS where other paint outweighs the label's, the overlap is a spill and is ignored; then what
+ * is left is weighed again, because spills speak for no label.  If correct paint outweighs foreign paint 3:1, this
+ * finds every spill of a stroke that has a quarter of its paint outside the component; a label alone in its component,
+ * a stroke within one component, or where a stroke is most likely meant, is never a spill.  What other paint cut off a
+ * stroke is weighed as part of it.
  *
- * Hardly anybody paints a bold outline, so that no other paint tells that a stroke ran on into one.  A stroke is meant for
- * solid areas, such as a black wing, only if a third of it lies in their cores.
+ * Hardly anybody paints a bold outline, so that no other paint tells that a stroke ran on into one.  A stroke is meant
+ * for solid areas, such as a black wing, only if a third of it lies in their cores.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */

@@ -56,7 +56,7 @@ CeldStatus celd_labelling_measure (const CeldLabelling *labelling, const CeldBas
 /* ------------------------------------------------------------------ records */
 
 /* How many pixels of paper a connected stroke covers in one part of the drawing (a component, enclosure or merged
- * basin).  `odds` of being meant for it, in those that are just enough, and `spill`: see spills.c; 0 until spills are
+ * basin).  `odds` of being meant for it, 1 if they are just enough, and `spill`: see spills.c; 0 until spills are
  * sought. */
 typedef struct { uint32_t part, label, stroke; size_t pixels; double odds; bool spill; } CeldStrokeOverlap;
 

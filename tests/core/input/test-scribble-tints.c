@@ -195,9 +195,9 @@ soft_strokes_with_loss (void)
           for (int x = 20; x < 380; x++)
             {
               double away = fabs (y - 70 * k - 40 - 10 * sin (x / 40.));
+              double pressure = 0.7 + 0.3 * cos (x / (k < 3 ? 40. : 1.6));
 
-              lay (x, y, pure[k], k < 2 ? 0.5 * fmax (1 - away / 14, 0)
-                                        : (0.7 + 0.3 * cos (x / (k < 3 ? 40. : 1.6))) * fmin (fmax ((12 - away) / 3, 0), 1));
+              lay (x, y, pure[k], k < 2 ? 0.5 * fmax (1 - away / 14, 0) : pressure * fmin (fmax ((12 - away) / 3, 0), 1));
             }
       shake_paint (loss, 3);
       CHECK (read_size (WIDTH, HEIGHT) == CELD_OK);
