@@ -165,57 +165,81 @@ visit_border (const CeldScribbleLayer *r, TintPiece *piece, size_t p, size_t q)
   piece[a].foreign += b && !is_tint_of (r, piece[a].id, piece[b].id) && !is_tint_of (r, piece[b].id, piece[a].id);
 }
 
+static bool
+is_paint (const CeldScribbleLayer *r, const uint16_t *contrast, const TintPiece *k, size_t p)
+{
+  return PAINT_SHARE * contrast[r->id[p]] >= contrast[k->id];
+}
+
+/* How far colours of one tint differ at most. */
+static int
+tint_error (const CeldScribbleLayer *r)
+{
+  return r->lossy ? LOSSY_TINT : 0;
+}
+
 /* Adds a pixel of paint that is inside one colour; the majority is that of Boyer and Moore. */
 static void
-visit_inside (const CeldScribbleLayer *r, const uint16_t *contrast, TintPiece *k, uint32_t id, bool count)
+vote_for_tint (const CeldScribbleLayer *r, const uint16_t *contrast, TintPiece *k, uint32_t id)
 {
-  int  error = r->lossy ? LOSSY_TINT : 0;
-  bool is_tint = differ (r, id, k->id, r->radius);
-
-  if (count)
-    {
-      k->of_tint += is_tint && !differ (r, id, k->tint, error);
-      return;
-    }
   if (contrast[id] > contrast[k->core])
     k->core = id;
-  if (!is_tint)
+  if (!differ (r, id, k->id, r->radius))
     return;
   k->inside++;
   k->tint = k->votes ? k->tint : id;
-  k->votes = differ (r, id, k->tint, error) ? k->votes - 1 : k->votes + 1;
+  k->votes = differ (r, id, k->tint, tint_error (r)) ? k->votes - 1 : k->votes + 1;
+}
+
+/* Adds a pixel of a piece. */
+static void
+visit_pixel (const CeldScribbleLayer *r, const uint16_t *contrast, TintPiece *piece, int x, int y)
+{
+  size_t     w = (size_t) r->width, p = (size_t) y * w + (size_t) x;
+  TintPiece *k = &piece[r->label[p]];
+
+  if (is_paint (r, contrast, k, p))
+    {
+      k->paint++;
+      if (is_inside (r, x, y))
+        vote_for_tint (r, contrast, k, r->id[p]);
+    }
+  if (x > 0)
+    visit_border (r, piece, p, p - 1);
+  if (x + 1 < r->width)
+    visit_border (r, piece, p, p + 1);
+  if (y > 0)
+    visit_border (r, piece, p, p - w);
+  if (y + 1 < r->height)
+    visit_border (r, piece, p, p + w);
+}
+
+/* Counts a pixel of a piece if it is inside paint of the tint that most votes were for. */
+static void
+count_tint (const CeldScribbleLayer *r, const uint16_t *contrast, TintPiece *piece, int x, int y)
+{
+  size_t     p = (size_t) y * (size_t) r->width + (size_t) x;
+  TintPiece *k = &piece[r->label[p]];
+
+  k->of_tint += is_paint (r, contrast, k, p) && differ (r, r->id[p], k->id, r->radius) &&
+                !differ (r, r->id[p], k->tint, tint_error (r)) && is_inside (r, x, y);
 }
 
 /* Fills in what is known of the pieces but their colour. */
 static void
 measure_pieces (const CeldScribbleLayer *r, const uint16_t *contrast, TintPiece *piece)
 {
-  size_t w = (size_t) r->width, p = 0;
+  const uint32_t *label = r->label;
 
-  for (int pass = 0; pass < 2; pass++, p = 0)
-    for (int y = 0; y < r->height; y++)
-      for (int x = 0; x < r->width; x++, p++)
-        {
-          TintPiece *k = &piece[r->label[p]];
-          bool       paint;
-
-          if (!r->label[p])
-            continue;
-          paint = PAINT_SHARE * contrast[r->id[p]] >= contrast[k->id];
-          if (paint && is_inside (r, x, y))
-            visit_inside (r, contrast, k, r->id[p], pass);
-          if (pass)
-            continue;
-          k->paint += paint;
-          if (x > 0)
-            visit_border (r, piece, p, p - 1);
-          if (x + 1 < r->width)
-            visit_border (r, piece, p, p + 1);
-          if (y > 0)
-            visit_border (r, piece, p, p - w);
-          if (y + 1 < r->height)
-            visit_border (r, piece, p, p + w);
-        }
+  for (int y = 0; y < r->height; y++)
+    for (int x = 0; x < r->width; x++, label++)
+      if (*label)
+        visit_pixel (r, contrast, piece, x, y);
+  label = r->label;
+  for (int y = 0; y < r->height; y++)
+    for (int x = 0; x < r->width; x++, label++)
+      if (*label)
+        count_tint (r, contrast, piece, x, y);
 }
 
 /* ------------------------------------------------------------------ one colour for each stroke */

@@ -74,16 +74,15 @@ a_hairline_that_looks_like_a_fringe (void)
     CHECK (seed_of[100 * WIDTH + 100 + x] == 1);
 }
 
-/* Has a line on paper in colour B, which is no label, the label of colour A? */
+/* Has a line in colour B, which is no label, the label of colour A?  paper: colour C, or 0 if that is transparent. */
 static bool
-line_is_a_tint (int (*rgb)[3])
+line_is_of_label (const char *const *art, int (*rgb)[3], uint32_t paper)
 {
-  static const char *const art[] = { "AACCCCCCCC", "AACCCCCCCC", "AACCBBBBBB", "AACCCCCCCC", NULL };
-  const size_t             cells = 86 * 86 * 86; /* of colour space, each a radius of 3 wide */
-  CeldScribbleLayer        r = reading_new (art, rgb, 3);
-  bool                     tint;
+  const size_t      cells = 86 * 86 * 86; /* of colour space, each a radius of 3 wide */
+  CeldScribbleLayer r = reading_new (art, rgb, 3);
+  bool              same;
 
-  r.paper = 3;
+  r.paper = paper;
   r.kind = malloc (r.pixels);
   r.label = malloc (r.pixels * sizeof *r.label);
   r.head = celd_alloc (cells, sizeof *r.head);
@@ -91,28 +90,43 @@ line_is_a_tint (int (*rgb)[3])
     r.kind[p] = r.id[p] == 2 ? CELD_FRINGE : CELD_SOLID;
   for (size_t k = 0; k < cells; k++)
     r.head[k] = CELD_NO_CLUSTER;
-  CHECK (celd_scribble_cluster_add (&r, 3) == CELD_OK && celd_scribble_cluster_add (&r, 1) == CELD_OK);
+  CHECK (celd_scribble_cluster_add (&r, paper) == CELD_OK && celd_scribble_cluster_add (&r, 1) == CELD_OK);
   r.cluster[1].is_label = true;
   r.colour[1].cluster = 1;
   r.colour[2].cluster = CELD_NO_CLUSTER;
   CHECK (celd_scribble_places (&r, NULL) == CELD_OK);
   CHECK (r.label[25] && r.label[25] < CELD_QUEUED && !r.label[3]);
-  tint = r.label[25] == 1;
+  same = r.label[25] == 1;
   free (r.kind);
   free (r.label);
   reading_clear (&r);
-  return tint;
+  return same;
 }
 
 /* A line too thin to show its full colour has that of a label if it is a tint of it, but not if it is 20 off these. */
 static void
 a_thin_line_of_a_near_colour (void)
 {
-  int pink[3][3] = { { 200, 30, 40 }, { 231, 158, 163 }, { 255, 255, 255 } };
-  int orange[3][3] = { { 200, 30, 40 }, { 237, 172, 147 }, { 255, 255, 255 } };
+  static const char *const art[] = { "AACCCCCCCC", "AACCCCCCCC", "AACCBBBBBB", "AACCCCCCCC", NULL };
+  int                      pink[3][3] = { { 200, 30, 40 }, { 231, 158, 163 }, { 255, 255, 255 } };
+  int                      orange[3][3] = { { 200, 30, 40 }, { 237, 172, 147 }, { 255, 255, 255 } };
 
-  CHECK (line_is_a_tint (pink));
-  CHECK (!line_is_a_tint (orange));
+  CHECK (line_is_of_label (art, pink, 3));
+  CHECK (!line_is_of_label (art, orange, 3));
+}
+
+/* On transparency it may differ by twice the radius of one label, which is 3. */
+static void
+a_lost_stroke_of_a_near_colour (void)
+{
+  static const char *const art[] = { "AA........", "AA........", "AA..BBBBBB", "AA........", NULL };
+
+  for (int d = 4; d < 8; d++)
+    {
+      int rgb[3][3] = { { 200, 30, 40 }, { 200 + d, 30, 40 }, { 255, 255, 255 } };
+
+      CHECK (line_is_of_label (art, rgb, 0) == (d < 6));
+    }
 }
 
 int
@@ -121,6 +135,7 @@ main (void)
   RUN (thin_strokes_have_no_interior);
   RUN (a_hairline_that_looks_like_a_fringe);
   RUN (a_thin_line_of_a_near_colour);
+  RUN (a_lost_stroke_of_a_near_colour);
   celd_palette_clear (&palette);
   return DONE;
 }
