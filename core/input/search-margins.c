@@ -4,6 +4,9 @@
  * arrows that end at each place, and without any that do.  An arrow's margin is what the best of those costs more that
  * does not have it.  Should one cost less than the choice itself, it is taken instead.
  *
+ * Where several lines meet, their paint is nearly as wide as a dot.  A dot that is neither all painted nor leaves the
+ * paint of the lines is not there: arrows that begin in such a place are not looked for.
+ *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "input/arrow-search.h"
@@ -12,8 +15,11 @@
 
 #define RESTARTS       4  /* times that a better choice is taken, at most; chosen */
 #define TURNED         7  /* arrows that are turned round one after another; chosen */
-#define DOUBLED  3    /* the same for an arrow with two heads; chosen */
+#define DOUBLED        3  /* the same for an arrow with two heads; chosen */
 #define HOPELESS       14 /* cost by which a choice is too much worse to go on from; chosen */
+#define NO_DOT_BARE    0.1 /* cost of what is not painted of a dot that is not there, at least, and ... */
+#define NO_DOT_OWN     0.4 /* ... its area that no line explains, at most, in square widths; measured: so it was at no
+                            * dot of 900, and at most places without one */
 #define MARGIN_LEAST   99 /* margin of an arrow that is in all choices */
 #define MARGIN_SMALLER 1e-3
 
@@ -76,7 +82,7 @@ turned_round (CeldArrowSearch *s, size_t option, double *change)
   *change = INFINITY;
   for (size_t k = 0; k < s->n_options; k++)
     if (s->option[k].shaft == s->option[option].shaft && s->option[k].end != s->option[option].end && !s->chosen[k] &&
-        s->option[k].filled == s->option[option].filled && celd_search_change (s, k) < *change)
+        !s->banned[k] && s->option[k].filled == s->option[option].filled && celd_search_change (s, k) < *change)
       {
         *change = celd_search_change (s, k);
         best    = k;
@@ -189,6 +195,32 @@ force (Margins *m, size_t place, bool drop)
   celd_search_restore (m->s, &m->best);
 }
 
+/* Is no dot seen where an option has its dot?  No chosen arrow has one there. */
+static bool
+lacks_dot (const CeldArrowSearch *s, const CeldArrowOption *o)
+{
+  const CeldPaintPiece *dot = &s->piece[o->mark];
+  double                own = 0;
+
+  if (o->mark_cost < NO_DOT_BARE)
+    return false;
+  for (size_t i = 0; i < s->choice.n; i++)
+    if (s->option[s->choice.item[i]].mark == o->mark)
+      return false;
+  for (size_t i = 0; i < dot->n; i++)
+    own += dot->cell[i] < celd_search_plane (s) && !s->covers[dot->cell[i]] ? s->cell : 0;
+  return own <= NO_DOT_OWN;
+}
+
+/* Bans the options whose dots are not there, or lifts those bans, with the same choice. */
+static void
+ban_absent_dots (CeldArrowSearch *s, bool on)
+{
+  for (size_t k = 0; k < s->n_options && s->style == CELD_ARROW_DOT; k++)
+    if (lacks_dot (s, &s->option[k]))
+      s->banned[k] = (uint16_t) (s->banned[k] + (on ? 1 : -1));
+}
+
 void
 celd_search_margins_find (CeldArrowSearch *s, double *margin)
 {
@@ -199,6 +231,7 @@ celd_search_margins_find (CeldArrowSearch *s, double *margin)
       m.best = m.better = s->choice;
       for (size_t i = 0; i < m.best.n; i++)
         margin[i] = MARGIN_LEAST;
+      ban_absent_dots (s, true);
       for (size_t i = 0; i < m.best.n; i++)
         leave_out (&m, m.best.item[i]);
       for (size_t i = 0; i < m.best.n; i++)
@@ -210,6 +243,7 @@ celd_search_margins_find (CeldArrowSearch *s, double *margin)
           force (&m, p, false);
           force (&m, p, true);
         }
+      ban_absent_dots (s, false);
       if (m.better.cost >= m.best.cost)
         return;
       celd_search_restore (s, &m.better);
