@@ -61,6 +61,8 @@ add_ends (ColouredArrows *s, const CeldArrowStroke *stroke, size_t k, const Celd
       CeldArrowEnd        from = celd_arrow_end (&s->paint, stroke, k, tail, tip, mean, sight_of (s, width, true));
       CeldArrowEnd        to = celd_arrow_end (&s->paint, stroke, k, tip, tail, mean, sight_of (s, width, false));
 
+      from.bare = s->style == CELD_ARROW_HEAD;
+      to.bare   = to.dotted = s->style == CELD_ARROW_DOT;
       if (s->style == CELD_ARROW_DOT) /* what is so broad may hide an end anywhere */
         from.is_about = to.is_about = false;
       status = celd_append (s->end, s->n, s->capacity, from);

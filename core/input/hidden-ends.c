@@ -156,9 +156,9 @@ is_seen (const CeldStrokeMask *component, const CeldArrowStroke *stroke, const b
          (!covered || paint_near (component, at, width) <= MOST_OTHERS * (double) (near - hidden));
 }
 
-/* Is there paint of the same colour in front of an end of stroke k, so close that it may be more of it? */
-static bool
-is_broken (const CeldArrowStroke *stroke, const CeldColourStrokes *colours, size_t k, const CeldArrowEnd *end)
+/* Looks for paint of the same colour in front of an end of stroke k, so close that it may be more of it. */
+static void
+find_beyond (const CeldArrowStroke *stroke, const CeldColourStrokes *colours, size_t k, CeldArrowEnd *end)
 {
   const CeldCrossingStrokes *all = &colours->strokes;
 
@@ -168,10 +168,12 @@ is_broken (const CeldArrowStroke *stroke, const CeldColourStrokes *colours, size
         CeldPoint p = celd_stroke_point (stroke, all->pixel[i]);
         double    dx = p.x - end->at.x, dy = p.y - end->at.y, d = hypot (dx, dy);
 
-        if (d <= CELD_MOST_BREAK && dx * end->way.x + dy * end->way.y > BREAK_COSINE * d)
-          return true;
+        if (d > CELD_MOST_BREAK || dx * end->way.x + dy * end->way.y <= BREAK_COSINE * d)
+          continue;
+        end->beyond = end->broken ? SIZE_MAX : j;
+        end->broken = true;
+        break;
       }
-  return false;
 }
 
 /* Does other paint hide all the width of an arrow that goes on beyond an end, at a distance in a direction? */
@@ -231,7 +233,8 @@ celd_arrow_end (const CeldColouredPaint *paint, const CeldArrowStroke *stroke, s
   end.visible = is_seen (paint->component, stroke, seen, paint->colours->covered[k], at, end.width);
   if (sight != CELD_SIGHT_MARKED || !end.visible)
     look_ahead (paint, stroke, seen, sight == CELD_SIGHT_STRONG, &end);
-  end.broken = !end.visible && is_broken (stroke, paint->colours, k, &end);
+  if (!end.visible)
+    find_beyond (stroke, paint->colours, k, &end);
   return end;
 }
 
@@ -356,12 +359,25 @@ find_about (CeldArrowEnd *ends, size_t n, size_t k)
     }
 }
 
+/* Is the paint beyond end k, which is of its colour, another arrow that ends next to it?  No arrow has two heads or
+ * dots.  What cuts a line may leave what looks like a head: one with a head counts only if it ends there in sight. */
+static bool
+is_other_beyond (const CeldArrowEnd *ends, size_t n, size_t k)
+{
+  for (size_t i = 0; i < n && ends[k].bare; i++)
+    if (ends[i].stroke == ends[k].beyond && (ends[i].visible || ends[i].dotted) &&
+        celd_points_apart (ends[i].at, ends[k].at) <= CELD_MOST_BREAK)
+      return true;
+  return false;
+}
+
 void
 celd_arrow_ends_find (const CeldStrokeMask *component, bool graded, CeldArrowEnd *ends, size_t n)
 {
   for (size_t k = 0; k < n; k++)
     {
-      ends[k].known = ends[k].visible;
+      ends[k].known   = ends[k].visible;
+      ends[k].broken &= !is_other_beyond (ends, n, k);
       if (ends[k].visible || ends[k].broken)
         continue;
       find_by_others (component, graded, true, ends, n, k);

@@ -80,6 +80,27 @@ more_of_it_may_follow (void)
   CHECK (!beside (hidden, end_at (51, 61, 2, true), SIZE, true).known);
 }
 
+/* What follows is another arrow, if that has a head in sight, or a dot at its other end. */
+static void
+another_arrow_may_follow (void)
+{
+  CeldArrowEnd hidden = end_at (50, 60, 0, false), head = end_at (70, 61, 2, true), tip = end_at (52, 61, 2, false);
+
+  hidden.broken = hidden.bare = true;
+  hidden.beyond = 1;
+  CHECK (is_at (beside (hidden, head, SIZE, false), 70, 61));
+  CHECK (!beside (hidden, tip, SIZE, false).known);
+  tip.bare = true;
+  CHECK (!beside (hidden, tip, SIZE, false).known);
+  tip.dotted = true;
+  CHECK (beside (hidden, tip, SIZE, false).known);
+  hidden.bare = false; /* what looks like its head may be another one's */
+  CHECK (!beside (hidden, head, SIZE, false).known);
+  hidden.bare   = true;
+  hidden.beyond = SIZE_MAX;
+  CHECK (!beside (hidden, head, SIZE, false).known);
+}
+
 /* A third arrow that hides two side by side does so at one place, which is the end of neither. */
 static void
 both_are_hidden (void)
@@ -275,6 +296,7 @@ main (void)
 {
   RUN (leads_below_others);
   RUN (more_of_it_may_follow);
+  RUN (another_arrow_may_follow);
   RUN (both_are_hidden);
   RUN (nearer_ends_do_not_lead);
   RUN (ends_in_sight_tell_first);
