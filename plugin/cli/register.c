@@ -73,7 +73,8 @@ check_moved (Registration *r, CeldStatus status)
   if (status != CELD_NOTHING_TO_GO_BY)
     return cli_run_finish (&r->run, status);
   cli_run_stage (&r->run, NULL);
-  return cli_error ("\"%s\" is blank.", celd_ink_has_lines (&r->ink[0]) ? r->options->target : r->options->input);
+  return cli_error ("\"%s\" is blank: give two drawings with lines, such as two frames of a clip.",
+                    celd_ink_has_lines (&r->ink[0]) ? r->options->target : r->options->input);
 }
 
 static bool
@@ -178,7 +179,8 @@ read_drawings (Registration *r)
   return cli_layers_read (r->options->target, &plain, CLI_DRAWING, &r->target) &&
          cli_check_alike (r->options, &r->source, &r->target) &&
          cli_make_ink (&r->source, CELD_FOR_DEPTH, r->options, &r->run, &r->ink[0]) &&
-         cli_make_ink (&r->target, CELD_FOR_DEPTH, r->options, &r->run, &r->ink[1]);
+         cli_make_ink (&r->target, CELD_FOR_DEPTH, r->options, &r->run, &r->ink[1]) &&
+         (r->options->settings.flats || cli_check_lines (r->options->target, &r->ink[1]));
 }
 
 static int

@@ -96,7 +96,7 @@ class Register(Test):
         self.fails('register', 'one.png', 'drawing.png', '--warped', 'w.png', naming='pixels')
         self.fails('register', 'one.png', 'none.png', '--warped', 'w.png', naming='none.png')
         Image.new('L', (3 * WIDTH, 3 * HEIGHT), 255).save(self.path('two.png'))
-        self.fails('register', 'one.png', 'two.png', '--warped', 'w.png', naming='"two.png" is blank')
+        self.fails('register', 'one.png', 'two.png', '--warped', 'w.png', naming='"two.png" has no lines')
         self.fails('register', 'two.png', 'one.png', '--warped', 'w.png', naming='"two.png" ')
 
 
