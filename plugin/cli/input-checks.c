@@ -253,23 +253,47 @@ cli_check_contours (const char *path, const CliOptions *options, const CliLayers
 
 /* ------------------------------------------------------------------ art that shows nothing */
 
-bool
-cli_warn_of_art (const char *path, const CeldColours *art, bool linear)
+/* The picture in encoded bytes; free its data with g_free. */
+static bool
+encoded_paint (const CeldColours *art, bool linear, CeldPaint *paint)
 {
   CeldColours encoded = { 0 };
-  CeldPaint   paint = { 0 };
   bool        good = !linear || cli_colours_new (art->width, art->height, &encoded);
 
   for (int y = 0; linear && good && y < art->height; y++)
     cli_encode (art->data + 4 * art->stride * (size_t) y, art->width, encoded.data + 4 * encoded.stride * (size_t) y);
   if (good)
-    paint = cli_paint_of (linear ? &encoded : art);
-  good = good && cli_check (paint.data ? CELD_OK : CELD_NO_MEMORY);
+    *paint = cli_paint_of (linear ? &encoded : art);
+  g_free (encoded.data);
+  return good && cli_check (paint->data ? CELD_OK : CELD_NO_MEMORY);
+}
+
+bool
+cli_warn_of_art (const char *path, const CeldColours *art, bool linear)
+{
+  CeldPaint paint = { 0 };
+  bool      good = encoded_paint (art, linear, &paint);
+
   if (good && is_blank (&paint))
     cli_say ("\"%s\" is blank, or of one colour: give the drawing in colours, with its lines or without.", path);
   else if (good && celd_looks_like_levels (&paint))
     cli_say ("\"%s\" looks like levels or depth: give the drawing in colours, with its lines or without.", path);
-  g_free (encoded.data);
+  g_free (paint.data);
+  return good;
+}
+
+bool
+cli_warn_of_matcap (const char *path, const CeldColours *matcap)
+{
+  CeldPaint paint = { 0 };
+  bool      good = encoded_paint (matcap, true, &paint);
+
+  if (good && is_blank (&paint))
+    cli_say ("\"%s\" is blank, or of one colour, so that nothing is shaded: give a picture of a lit ball as --matcap.",
+             path);
+  else if (good && matcap->width != matcap->height)
+    cli_say ("\"%s\" has %d x %d pixels, but a matcap is a picture of a lit ball that fills a square: it is read as if it "
+             "were stretched to one.", path, matcap->width, matcap->height);
   g_free (paint.data);
   return good;
 }

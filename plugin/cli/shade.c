@@ -82,7 +82,8 @@ read_all (const CliOptions *options, Shade *s)
   return cli_layers_read (options->drawing, options, CLI_CONTOURS, &s->layers) &&
          cli_check_not_exchanged (options, &s->levels, &s->layers) && read_depth (options, s) &&
          read_hints (options, s) && read_art (options, s) &&
-         (!options->matcap || cli_read_colours (options->matcap, &s->matcap));
+         (!options->matcap || (cli_read_colours (options->matcap, &s->matcap) &&
+                               (options->quiet || cli_warn_of_matcap (options->matcap, &s->matcap))));
 }
 
 /* ------------------------------------------------------------------ results */

@@ -69,6 +69,21 @@ class Shade(Test):
         self.assertGreater(steps.mean(), 0.85)
         self.assertEqual(set(np.round(bands)), {0, 1, 2, 3, 4})
 
+    def test_odd_matcaps(self):
+        """What is no lit ball on a square is warned of, once."""
+        ball = np.zeros((32, 32, 3), np.uint8) + np.arange(0, 256, 8, np.uint8)[:, None, None]
+        Image.fromarray(ball).save(self.path('ball.png'))
+        Image.fromarray(ball[:, :20]).save(self.path('narrow.png'))
+        Image.new('RGB', (32, 20), 'white').save(self.path('white.png'))
+        Image.new('RGBA', (32, 32)).save(self.path('clear.png'))
+        for name, says in (('ball.png', ''), ('narrow.png', '"narrow.png" has 20 x 32 pixels, but a matcap is'),
+                           ('white.png', '"white.png" is blank, or of one colour'),
+                           ('clear.png', '"clear.png" is blank')):
+            said = self.shade('--shading', 's.png', '--matcap', name)
+            self.assertIn(says, said)
+            self.assertEqual(said.count('\n'), bool(says))
+            self.assertEqual(self.shade('--shading', 's.png', '--matcap', name, '--quiet'), '')
+
     def test_matcap(self):
         """Grey art shaded with a matcap looks like the matcap, whose middle is as grey; the background does not."""
         u = (np.arange(256) + 0.5) / 256
