@@ -43,14 +43,16 @@ cli_json_read (JsonParser *parser, const char *path, bool quiet)
   gsize   length = 0;
   char   *text = cli_file_read (path, CLI_MOST_TEXT, quiet, &length);
   GError *error = NULL;
-  bool    deep = false, good = false;
+  bool    deep = false, good = false, plain = text && g_utf8_validate (text, (gssize) length, NULL);
   guint   line = 1;
 
-  if (text && is_shallow (text, length, &line, &deep))
+  if (plain && is_shallow (text, length, &line, &deep))
     good = json_parser_load_from_data (parser, text, (gssize) length, &error);
   if (error)
     sscanf (error->message, "<data>:%u:", &line); /* the parser forgets where it was */
-  if (text && deep && !quiet)
+  if (text && !plain && !quiet)
+    cli_say ("Cannot read \"%s\": it is not a text file.", path);
+  else if (text && deep && !quiet)
     cli_say ("Cannot read \"%s\": line %u has more than %d arrays and objects in each other.", path, line, MOST_DEEP);
   else if (text && !good && !quiet)
     cli_say ("Cannot read \"%s\": line %u is no JSON.", path, line);

@@ -312,7 +312,8 @@ check_folder (const char *path)
   bool  good = true;
 
   if (path && !g_file_test (place, G_FILE_TEST_IS_DIR))
-    good = cli_error ("Cannot make the folder \"%s\": %s.", path, g_strerror (missing ? ENOTDIR : EEXIST));
+    good = missing ? cli_error ("Cannot make the folder \"%s\": %s.", path, g_strerror (ENOTDIR))
+                   : cli_error ("Cannot make the folder \"%s\": it is a file. Give another name.", path);
   else if (path && g_access (place, W_OK))
     good = missing ? cli_error ("Cannot make the folder \"%s\": %s.", path, g_strerror (errno))
                    : cli_error ("Cannot write in the folder \"%s\": %s.", path, g_strerror (errno));
