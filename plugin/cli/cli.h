@@ -303,6 +303,8 @@ bool cli_check_grey     (const char *path);                           /* of dept
 bool cli_check_levels   (const char *path, const CeldPlane *levels);  /* no photograph */
 bool cli_check_depth    (const char *path, const CeldPlane *depth);   /* no photograph */
 bool cli_check_regions  (const char *path, const CeldLabels *regions, const CeldPalette *palette); /* no photograph */
+/* Warns of regions that are one colour, or look like something else, where there is no drawing to compare them with. */
+bool cli_warn_of_regions (const char *path, const CeldLabels *regions);
 /* That regions are not the drawing; warns of those that have its lines, too. */
 bool cli_check_regions_of (const char *path, const CeldLabels *regions, const CeldPalette *palette, const char *drawing,
                            const CeldPlane *ink, bool quiet);

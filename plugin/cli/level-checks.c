@@ -217,6 +217,61 @@ read_picture (const char *path, CeldPaint *picture)
   return good;
 }
 
+/* Whether a picture is one colour all over. */
+static bool
+is_one_colour (const CeldLabels *regions)
+{
+  size_t n = (size_t) regions->width * (size_t) regions->height, i = 1;
+
+  while (i < n && regions->data[i] == regions->data[0])
+    i++;
+  return i == n;
+}
+
+/* Whether a picture is lines or strokes on white, by its brightness.  Regions that are small numbers, with a large one
+ * where there is none, are like light lines on black. */
+static bool
+is_drawn (const CeldPaint *picture, bool *drawn)
+{
+  CeldPlane brightness = { 0 };
+  size_t    n = (size_t) picture->width * (size_t) picture->height, light = 0;
+  bool      good = cli_plane_new (picture->width, picture->height, &brightness);
+
+  for (size_t i = 0; good && i < n; i++)
+    {
+      const uint8_t *p = picture->data + 4 * i;
+
+      brightness.data[i] = 1 - (float) p[3] / 255 * (1 - (float) (p[0] + p[1] + p[2]) / 765);
+      light += brightness.data[i] > 0.5f;
+    }
+  good = good && cli_check (celd_levels_are_drawing (&brightness, drawn));
+  *drawn &= 2 * light > n;
+  g_free (brightness.data);
+  return good;
+}
+
+bool
+cli_warn_of_regions (const char *path, const CeldLabels *regions)
+{
+  CeldPaint picture = { 0 };
+  bool      drawn = false, strokes = false, good = true;
+
+  if (is_one_colour (regions))
+    cli_say ("\"%s\" is blank, or of one colour, so that nothing lies in front of anything.", path);
+  else if (!cli_is_npy (path))
+    good = read_picture (path, &picture) && is_drawn (&picture, &drawn);
+  strokes = drawn && celd_is_coloured_strokes (&picture);
+  /* Coloured regions may have lines between them that are left blank. */
+  if (good && drawn && (strokes || !celd_paint_is_coloured (&picture)))
+    cli_say ("\"%s\" looks like %s: regions are flat colours, as segment writes them with --labels.", path,
+             strokes ? "scribbles" : "a drawing");
+  else if (good && picture.data && celd_looks_like_levels (&picture))
+    cli_say ("\"%s\" looks like levels or depth: regions are flat colours, as segment writes them with --labels.",
+             path);
+  g_free (picture.data);
+  return good;
+}
+
 bool
 cli_check_not_art (const char *path, const char *art)
 {

@@ -33,15 +33,14 @@ load_ordering (const CliOptions *options, Ordering *o)
                          cli_check_hint (options->depth_hint, &o->hint, options->quiet)));
 
   g_free (text);
-  return good && (!options->drawing ||
-                  (cli_make_ink (&o->layers, CELD_FOR_SEGMENTATION, options, &o->run, &o->ink) &&
-                   cli_check_lines (options->drawing, &o->ink) &&
-                   cli_check_regions_of (options->input, &o->labels, &o->palette, options->drawing, &o->ink,
-                                         options->quiet) &&
-                   cli_check_region_steps (options->input, &o->labels, options, &o->layers, options->drawing,
-                                           &o->ink) &&
-                   (!o->hint.data || options->quiet ||
-                    cli_warn_of_lines (options->depth_hint, &o->hint, options->drawing, &o->ink))));
+  if (!options->drawing)
+    return good && (options->quiet || cli_warn_of_regions (options->input, &o->labels));
+  return good && cli_make_ink (&o->layers, CELD_FOR_SEGMENTATION, options, &o->run, &o->ink) &&
+         cli_check_lines (options->drawing, &o->ink) &&
+         cli_check_regions_of (options->input, &o->labels, &o->palette, options->drawing, &o->ink, options->quiet) &&
+         cli_check_region_steps (options->input, &o->labels, options, &o->layers, options->drawing, &o->ink) &&
+         (!o->hint.data || options->quiet ||
+          cli_warn_of_lines (options->depth_hint, &o->hint, options->drawing, &o->ink));
 }
 
 static CeldStatus

@@ -843,6 +843,22 @@ class Nonsense(Test):
             self.assertIn('"coloured.png" has the lines of "drawing.png", too', self.celdepth(*with_name('coloured.png')))
             self.assertEqual(self.celdepth(*with_name('labels.png')), '')
 
+    def test_regions_without_a_drawing(self):
+        """They may be anything, so that it is only warned of what looks like something else."""
+        self.popup('--relations', RELATIONS, '--labels', 'labels.png', '--levels', 'levels.png')
+        Image.new('L', (WIDTH, HEIGHT), 255).save(self.path('white.png'))
+        Image.new('RGBA', (WIDTH, HEIGHT)).save(self.path('clear.png'))
+        numbers = np.where(np.asarray(drawing().convert('L')) < 128, 255, 0).astype(np.uint8)
+        numbers[20:40, 20:40][numbers[20:40, 20:40] == 0] = 3
+        Image.fromarray(numbers).save(self.path('numbers.png'))
+        for name, says in (('labels.png', ''), ('numbers.png', ''), ('white.png', 'is blank'), ('clear.png', 'is blank'),
+                           ('drawing.png', 'looks like a drawing'), ('levels.png', 'looks like levels or depth'),
+                           ('scribbles.png', 'looks like scribbles')):
+            said = self.celdepth('order', name, '--unexpanded-levels', 'u.npy')
+            self.assertIn(f'"{name}" {says}' if says else '', said)
+            self.assertEqual(said.count('\n'), bool(says), said)
+            self.assertEqual(self.celdepth('order', name, '--unexpanded-levels', 'u.npy', '--quiet'), '')
+
     def test_arrows_as_scribbles(self):
         """Two arrows or more, and hardly anything else."""
         def paint(name, arrows, lines):
@@ -1130,6 +1146,7 @@ class BadInput(Test):
         for words, said in ((('compose', 'none.json', '--output', 'o.png'), '"none.json": No such file or directory.'),
                             (('compose', 'folder', '--output', 'o.png'), '"folder": it is a folder.'),
                             (('compose', 'bad.json', '--output', 'o.png'), '"bad.json": line 2 is no JSON.'),
+                            (('compose', 'drawing.png', '--output', 'o.png'), '"drawing.png": it is not a text file.'),
                             ((*order, '--drawing', 'drawing.png'), '"none.npy": No such file or directory.'),
                             (('popup', 'drawing.png', '--relations-file', 'none.txt', '--depth', 'd.png'),
                              '"none.txt": No such file or directory.')):
