@@ -318,6 +318,8 @@ bool cli_check_alike (const CliOptions *options, const CliLayers *first, const C
 bool cli_check_contours (const char *path, const CliOptions *options, const CliLayers *layers);
 /* Warns of art that is blank, or levels; false if there is no memory. */
 bool cli_warn_of_art (const char *path, const CeldColours *art, bool linear);
+/* Warns of a file for scribbles that is blank beside arrows. */
+void cli_warn_of_blank_scribbles (const CliOptions *options, const CliLayers *layers);
 /* Warns of a matcap that is blank, or no square. */
 bool cli_warn_of_matcap (const char *path, const CeldColours *matcap);
 /* That the drawing of levels, or of regions, is no scribbles; warns if it is that of another page. */

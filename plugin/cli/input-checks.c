@@ -244,6 +244,15 @@ warn_if_vain (const char *path, const CliLayers *layers, CeldInkMode mode)
   return good;
 }
 
+void
+cli_warn_of_blank_scribbles (const CliOptions *options, const CliLayers *layers)
+{
+  if (options->scribbles && layers->scribbles.data && layers->arrows.data && is_blank (&layers->scribbles) &&
+      !is_blank (&layers->arrows))
+    cli_say ("The scribbles \"%s\" are blank, so that only parts with arrows are regions: scribble over the parts, or "
+             "leave out --scribbles.", options->scribbles);
+}
+
 bool
 cli_check_contours (const char *path, const CliOptions *options, const CliLayers *layers)
 {
@@ -292,8 +301,8 @@ cli_warn_of_matcap (const char *path, const CeldColours *matcap)
     cli_say ("\"%s\" is blank, or of one colour, so that nothing is shaded: give a picture of a lit ball as --matcap.",
              path);
   else if (good && matcap->width != matcap->height)
-    cli_say ("\"%s\" has %d x %d pixels, but a matcap is a picture of a lit ball that fills a square: it is read as if it "
-             "were stretched to one.", path, matcap->width, matcap->height);
+    cli_say ("\"%s\" has %d x %d pixels, but a matcap is a picture of a lit ball that fills a square: it is read as if "
+             "it were stretched to one.", path, matcap->width, matcap->height);
   g_free (paint.data);
   return good;
 }

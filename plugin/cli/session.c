@@ -56,6 +56,8 @@ cli_session_load (CeldSession *session, const CliOptions *options, CliLayers *la
   if (good && !options->settings.flats)
     good = cli_check (celd_session_ink (session, NULL, &ink, NULL)) && cli_check_lines (options->input, &ink) &&
            cli_check_no_drawings (options, layers, &ink);
+  if (good && !options->quiet)
+    cli_warn_of_blank_scribbles (options, layers);
   good = good && (!options->depth_hint || load_hint (session, options, layers));
   g_free (text);
   return good;

@@ -301,6 +301,15 @@ class Strokes(Test):
         levels = np.load(self.path('l.npy'))
         self.assertGreater(levels[45, 70], levels[18, 75])
 
+    def test_blank_scribbles_beside_arrows(self):
+        self.arrow()
+        Image.new('RGB', (WIDTH, HEIGHT), 'white').save(self.path('blank.png'))
+        words = 'popup', 'drawing.png', '--arrows', 'arrows.png', '--levels', 'l.npy', '--scribbles'
+        self.assertIn('The scribbles "blank.png" are blank, so that only parts with arrows are regions',
+                      self.celdepth(*words, 'blank.png'))
+        self.assertNotIn('blank', self.celdepth(*words, 'blank.png', '--quiet'))
+        self.assertNotIn('blank', self.celdepth(*words, 'scribbles.png'))
+
     def test_text_path_and_paint_together(self):
         self.arrow()
         self.popup('--arrows', 'arrows.png', '--relations', '20,20 > 1,1', '--arrow-path', 'M70,45 L 20,20',
