@@ -4,9 +4,12 @@
  * paint in it, counting only strokes that are at home there: those that have at least half of their paint in it.  In
  * a component, which is many enclosures behind gaps, that must be a fair share of all paint: the mean of its labels.  A
  * stroke that is at home nowhere but has half of its paint along the frame runs over hatching, and counts in every
- * enclosure along the frame.  A stroke in a figure whose outline has a gap as wide as the paper beside it lies in one
- * enclosure with the page.  So if no label owns a quarter of the frame in rooms, which bridges close, the page is not
- * painted: an enclosure that has a quarter of the frame has no owner where its room has none.
+ * enclosure along the frame.  A stroke of which a fair part lies along the frame, and that was led there without
+ * running over a line, counts there, too; or with one, if no other label has paint in that part and it does not have a
+ * quarter of the frame: the frame has cut it off the figure, else it is the page.  A stroke in a figure whose outline
+ * has a gap as wide as the paper beside it lies in one enclosure with the page.  So if no label owns a quarter of the
+ * frame in rooms, which bridges close, the page is not painted: an enclosure that has a quarter of the frame has no
+ * owner where its room has none.
  *
  * Enclosures along the frame without an owner get seeds of the main owner.  If no label owns a quarter of the frame or
  * runs over hatching, and more of the frame has no owner, they get a transparent label of their own: parts of a figure
@@ -102,6 +105,7 @@ typedef struct
 {
   const CeldStrokes *strokes;
   const size_t      *along;     /* of each part: its frame pixels */
+  size_t             n_frame;
   bool               all_count;
   size_t            *scattered; /* of stroke k: its pixels along the frame, if it is at home nowhere; else 0 */
   bool              *crosses;   /* of stroke k: lies it on ink, too?  NULL until it is needed, which is seldom */
@@ -145,43 +149,57 @@ crosses_ink (Counting *c, uint32_t stroke)
   return !c->crosses || c->crosses[stroke];
 }
 
-/* Does a stroke count where it overlaps a part?  *across: because it runs on along the frame. */
+/* Does a stroke count where it overlaps a part?  alone: no other label has paint there.  *across: because it runs on
+ * along the frame. */
 static bool
-counts (Counting *c, const CeldStrokeOverlap *overlap, bool *across)
+counts (Counting *c, const CeldStrokeOverlap *overlap, bool alone, bool *across)
 {
-  size_t total = c->strokes->total[overlap->stroke];
-  bool   along = c->along[overlap->part], runs_on = along && 2 * c->scattered[overlap->stroke] >= total;
+  size_t total = c->strokes->total[overlap->stroke], along = c->along[overlap->part];
+  bool   runs_on = along && 2 * c->scattered[overlap->stroke] >= total;
 
   *across |= runs_on;
-  return c->all_count || runs_on || 2 * overlap->pixels >= total ||
-         (along && FAIR_PART * overlap->pixels >= total && !crosses_ink (c, overlap->stroke));
+  if (c->all_count || runs_on || 2 * overlap->pixels >= total)
+    return true;
+  return along && FAIR_PART * overlap->pixels >= total &&
+         ((alone && MAIN_SHARE * along < c->n_frame) || !crosses_ink (c, overlap->stroke));
+}
+
+/* The end of the overlaps from i on that are in the same part. */
+static size_t
+part_end (const CeldStrokes *strokes, size_t i)
+{
+  uint32_t part = strokes->overlap[i].part;
+
+  while (i < strokes->n && strokes->overlap[i].part == part)
+    i++;
+  return i;
 }
 
 /* owner[k] becomes the label with most paint in part k, 0 without any or, if `fair`, with less than a fair share of it.
- * Soft strokes count only where they are at home, or along the frame if they are scattered or led there.  along[k]:
- * frame pixels in part k. */
+ * Soft strokes count only where they are at home, or along the frame if they are scattered, led there or alone there.
+ * along[k]: frame pixels in part k. */
 static CeldStatus
-find_owners (const CeldStrokes *strokes, bool all_count, bool fair, const size_t *along, bool *across,
-             uint32_t *owner)
+find_owners (const CeldStrokes *strokes, bool all_count, bool fair, const size_t *along, Frame *frame, uint32_t *owner)
 {
-  Counting c = { .strokes = strokes, .along = along, .all_count = all_count };
+  Counting c = { .strokes = strokes, .along = along, .n_frame = frame->n, .all_count = all_count };
 
   c.status = find_scattered (&c);
   for (size_t i = 0; i < strokes->n && c.status == CELD_OK;)
     {
       uint32_t part = strokes->overlap[i].part;
-      size_t   most = 0, all = 0, labels = 0;
+      size_t   end = part_end (strokes, i), most = 0, all = 0, labels = 0;
+      bool     alone = strokes->overlap[i].label == strokes->overlap[end - 1].label;
 
-      while (i < strokes->n && strokes->overlap[i].part == part)
+      while (i < end)
         {
           uint32_t label = strokes->overlap[i].label;
           size_t   paint = 0;
 
           labels++;
-          for (; i < strokes->n && strokes->overlap[i].part == part && strokes->overlap[i].label == label; i++)
+          for (; i < end && strokes->overlap[i].label == label; i++)
             {
               all += strokes->overlap[i].pixels;
-              paint += counts (&c, &strokes->overlap[i], &across[label]) ? strokes->overlap[i].pixels : 0;
+              paint += counts (&c, &strokes->overlap[i], alone, &frame->across[label]) ? strokes->overlap[i].pixels : 0;
             }
           if (paint > most)
             {
@@ -211,7 +229,7 @@ parts_new (const CeldSegmentTask *task, Frame *frame, const uint32_t *of_basin, 
     parts->along[of_basin[frame->basin[i]]]++;
   status = celd_strokes_overlap (task->basins, of_basin, strokes);
   if (status == CELD_OK)
-    status = find_owners (strokes, celd_task_all_hard (task), fair, parts->along, frame->across, parts->owner);
+    status = find_owners (strokes, celd_task_all_hard (task), fair, parts->along, frame, parts->owner);
   return status;
 }
 

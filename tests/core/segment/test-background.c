@@ -168,6 +168,24 @@ a_stroke_over_hatching_holds_the_frame (void)
   check_background (paper, painted, 1, wanted, 1, 1);
 }
 
+/* A stroke runs on into another part of the figure, which the frame cuts off.  It counts there if no other label has paint
+ * there. */
+static void
+a_part_that_only_one_label_reaches_is_its_own (void)
+{
+  static const char *const paper[] = {
+    "1111111111", "1111111111", "1####11111", "1#33######", "1#33#22222", "1#########", "1111111111", NULL
+  };
+  static const char *const painted[] = {
+    "..........", "..........", "..........", "..AA......", "..AAAA....", "..........", "..........", NULL
+  };
+  static const char *const wanted[] = {
+    "BBBBBBBBBB", "B........B", "B........B", "B.AA......", "B.AAAA....", "B.........", "BBBBBBBBBB", NULL
+  };
+
+  check_background (paper, painted, 1, wanted, 2, 2);
+}
+
 /* The page is seen between two figures; a stroke that was led out there onto the page round them, without running over a
  * line, holds the frame, too. */
 static void
@@ -266,35 +284,39 @@ typedef struct
   CeldLabels painted, enclosure;
   uint32_t   stroke[W * H], component[W * H];
   bool       ink[W * H], all_count;
+  int        n_frame;
 } Pixels;
 
-/* Does the stroke of pixel p count in its part?  *across: because it runs on along the frame. */
+/* Does the stroke of pixel p count in its part?  *across: because it runs on along the frame.  along: frame pixels of
+ * each part. */
 static bool
-slow_at_home (const Pixels *s, const uint32_t part[W * H], const bool along[5], int p, bool *across)
+slow_at_home (const Pixels *s, const uint32_t part[W * H], const int along[5], int p, bool *across)
 {
-  int  in[5] = { 0 }, total = 0, in_frame = 0;
-  bool home = false, crosses = false;
+  int  in[5] = { 0 }, total = 0, in_frame = 0, here = (int) part[p];
+  bool home = false, crosses = false, alone = true;
 
   for (int q = 0; q < W * H; q++)
     {
       bool same = s->stroke[q] == s->stroke[p];
 
       crosses |= same && s->ink[q];
+      alone &= (int) part[q] != here || !s->painted.data[q] || s->painted.data[q] == s->painted.data[p];
       if (same && s->enclosure.data[q])
         {
           total++;
           in[part[q]]++;
-          in_frame += along[part[q]];
+          in_frame += along[part[q]] > 0;
         }
     }
   for (int k = 1; k < 5; k++)
     home |= 2 * in[k] >= total;
-  *across = !home && along[part[p]] && 2 * in_frame >= total;
-  return *across || (along[part[p]] && !crosses ? 8 : 2) * in[part[p]] >= total;
+  *across = !home && along[here] && 2 * in_frame >= total;
+  return *across || 2 * in[here] >= total ||
+         (along[here] && (!crosses || (alone && 4 * along[here] < s->n_frame)) && 8 * in[here] >= total);
 }
 
 static uint32_t
-slow_holder (const Pixels *s, const uint32_t part[W * H], const bool along[5], uint32_t which, bool across[5])
+slow_holder (const Pixels *s, const uint32_t part[W * H], const int along[5], uint32_t which, bool across[5])
 {
   int      most = 0, all = 0, labels = 0;
   uint32_t holder = 0;
@@ -328,19 +350,21 @@ slow_background (Pixels *s, const CeldPlane *ink)
 {
   size_t  *frame, n;
   uint32_t holder[4 * (W + H)], of_room[5], of_piece[5], label = 0;
-  int      along[5] = { 0 }, held[5] = { 0 };
-  bool     lost[5] = { false }, enclosures[5] = { false }, pieces[5] = { false }, across[5] = { false };
+  int      along[5] = { 0 }, along_piece[5] = { 0 }, held[5] = { 0 };
+  bool     lost[5] = { false }, across[5] = { false };
 
   CHECK (celd_frame (ink, W, H, 1, &frame, &n) == CELD_OK);
+  s->n_frame = (int) n;
   for (size_t i = 0; i < n; i++)
-    enclosures[s->enclosure.data[frame[i]]] = pieces[s->component[frame[i]]] = true;
+    {
+      along[s->enclosure.data[frame[i]]]++;
+      along_piece[s->component[frame[i]]]++;
+    }
   for (uint32_t k = 1; k <= 4; k++)
     {
-      of_room[k]  = slow_holder (s, s->enclosure.data, enclosures, k, across);
-      of_piece[k] = slow_holder (s, s->component, pieces, k, across);
+      of_room[k]  = slow_holder (s, s->enclosure.data, along, k, across);
+      of_piece[k] = slow_holder (s, s->component, along_piece, k, across);
     }
-  for (size_t i = 0; i < n; i++)
-    along[s->enclosure.data[frame[i]]]++;
   for (size_t i = 0; i < n; i++)
     {
       uint32_t enclosure = s->enclosure.data[frame[i]];
@@ -443,6 +467,7 @@ main (void)
   RUN (a_stroke_that_runs_out_does_not_hold_the_frame);
   RUN (a_label_in_front_of_another_is_no_background);
   RUN (a_stroke_over_hatching_holds_the_frame);
+  RUN (a_part_that_only_one_label_reaches_is_its_own);
   RUN (a_stroke_led_out_between_lines_holds_the_frame);
   RUN (behind_a_gap_the_component_counts);
   RUN (flecks_in_solid_ink_are_left_alone);
