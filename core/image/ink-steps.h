@@ -73,4 +73,9 @@ CeldStatus celd_ink_part_lines (CeldPlane *ink, CeldMask *between);
 /* Fills small holes in the ink of a noisy drawing.  `known`, a tight mask of the same size, is overwritten. */
 void celd_ink_fill_grain (CeldPlane *ink, CeldMask *known);
 
+/* ------------------------------------------------------------------ ink-hairlines.c */
+
+/* Joins the ink of the two pixels across an antialiased line of one pixel in the darker one, where both are paper. */
+void celd_ink_join_hairlines (CeldPlane *ink);
+
 #endif

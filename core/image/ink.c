@@ -8,7 +8,8 @@
  *    LazyBrush [SDC09b] uses the response of a LoG filter for the same purpose, to keep faint contours.  Here a stroke
  *    is what a grey opening removes, so that flat grey areas keep their grey.
  * 4. In a noisy drawing, bands of paper between lines are opened (ink-bands.c), and holes of grain in ink are filled
- *    (ink-grain.c).
+ *    (ink-grain.c); in one without noise, lines of one pixel that lie between two rows of pixels are closed
+ *    (ink-hairlines.c).
  *
  * Cost: O(pixels), independent of the width of strokes; 6 bytes a pixel, 13 if there is noise, 14 if there are bands.
  * What is taken from windows (levels, areas) is kept in bytes, in 255ths: finer steps would not be seen.
@@ -452,7 +453,10 @@ celd_ink (const CeldDrawing *drawing, CeldInkMode mode, const CeldHost *host, Ce
   if (status == CELD_OK && w.noisy)
     status = write_noisy_ink (&w, pale, ink);
   else if (status == CELD_OK)
-    write_ink (&w, pale, ink);
+    {
+      write_ink (&w, pale, ink);
+      celd_ink_join_hairlines (ink);
+    }
   end_work (&w);
   return status;
 }
