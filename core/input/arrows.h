@@ -307,13 +307,13 @@ void       celd_colour_strokes_clear (CeldColourStrokes *strokes);
 
 /* ------------------------------------------------------------------ hidden-ends.c */
 
-/* An end of an arrow, which is a stroke of a colour: where its paint ends, the direction in which it does, and its mean
- * width.  visible: it ends there, else other paint of the component goes on in its direction and may hide its end;
- * broken: so does paint of its own colour farther on, which may be more of it (beyond: the stroke of that, SIZE_MAX =
- * of several); is_near: that other paint is so short that its end is near `middle` in any case; is_about: it hides all the
- * width of the arrow only for a few widths, in whose middle, `about`, its end is if others end there; lean: its width
- * there, without a head or dot; bare: its arrow has its head or dot at the other end; dotted: it has a dot there; known:
- * it ends at `place`. */
+/* An end of an arrow, which is a stroke of a colour: where its paint ends, the direction in which it does, and its
+ * mean width.  visible: it ends there, else other paint of the component goes on in its direction and may hide its
+ * end; broken: so does paint of its own colour farther on, which may be more of it (beyond: the stroke of that,
+ * SIZE_MAX = of several); is_near: that other paint is so short that its end is near `middle` in any case; is_about:
+ * it hides all the width of the arrow only for a few widths, in whose middle, `about`, its end is if others end
+ * there; lean: its width there, without a head or dot; bare: its arrow has its head or dot at the other end; dotted:
+ * it has a dot there; known: it ends at `place`. */
 typedef struct
 {
   size_t    stroke, beyond;
