@@ -105,7 +105,7 @@ typedef struct
 {
   const CeldStrokes *strokes;
   const size_t      *along;     /* of each part: its frame pixels */
-  size_t             n_frame;
+  size_t             n_frame;   /* frame pixels in all */
   bool               all_count;
   size_t            *scattered; /* of stroke k: its pixels along the frame, if it is at home nowhere; else 0 */
   bool              *crosses;   /* of stroke k: lies it on ink, too?  NULL until it is needed, which is seldom */
