@@ -1,9 +1,10 @@
 /* Separates a connected component of arrows into its colours.
  *
  * Arrows of different colours may share ends and lie on each other.  The colours are the commonest ones of the solid
- * paint that differ clearly; in a layer without alpha, paint is mixed with the paper, so that the directions of colours
- * from it are compared.  Where a stroke passes below another one, its paint is continued through the other one's, as
- * far as a morphological closing fills that.
+ * paint that differ clearly.  In a layer without alpha, edges are mixed with the paper: there, a pixel is compared with
+ * the nearest mixture of a colour and the paper, and the pixels around it have a say, because near the paper all mixtures
+ * are alike.  Where a stroke passes below another one, its paint is continued through the other one's, as far as a
+ * morphological closing fills that.
  *
  * Cost: a pass over the component for each colour, and distance transforms of its box.
  *
@@ -20,9 +21,10 @@
 #define SOLID_SHARE    0.75 /* of the largest opacity: paint of less is an edge */
 #define LEAST_CONTRAST 55   /* of 255, between colours of different strokes; ... */
 #define MOST_CONTRAST  40   /* ... and from its stroke's colour to a pixel */
-#define ON_PAPER       1.7  /* times as much in a layer without alpha, which may have been stored with loss */
+#define MOST_ON_PAPER  65   /* the same in a layer without alpha, which may have been stored with loss */
+#define AROUND         0.05 /* of what a pixel counts: each of those around it, in a layer without alpha */
 #define LEAST_PAINT    20   /* pixels of a colour, ... */
-#define LEAST_PALETTE  0.02 /* ... which is at least this share of the solid paint */
+#define LEAST_PALETTE  0.01 /* ... which is at least this share of the solid paint */
 #define LARGER         2.5  /* times the area of a part: another part that it may have belonged to */
 #define MOST_BESIDE    0.55 /* of the edge of a stroke, beside other paint */
 #define CLOSING        7    /* pixels: half the width of a stroke below which another one continues */
@@ -35,31 +37,33 @@ distance_between (StrokeColour a, StrokeColour b)
   return hypot (hypot (a.red - b.red, a.green - b.green), a.blue - b.blue);
 }
 
-/* The colour of a pixel; without alpha its difference from the paper, so stretched that the largest channel is 255. */
 static StrokeColour
 colour_at (const CeldArrowLayer *layer, int x, int y)
 {
   const uint8_t *c = CELD_RGBA (layer->paint, x, y);
-  double         stretch;
 
-  if (!layer->opaque)
-    return (StrokeColour) { c[0], c[1], c[2] };
-  stretch = 255. / fmax (1, celd_arrow_opacity (layer, x, y));
-  return (StrokeColour) { stretch * (c[0] - layer->paper[0]), stretch * (c[1] - layer->paper[1]),
-                         stretch * (c[2] - layer->paper[2]) };
+  return (StrokeColour) { c[0], c[1], c[2] };
 }
 
-static int
-channel_key (double value)
+/* The distance of a pixel from paint; without alpha from the nearest mixture of that with the paper. */
+static double
+distance_from_paint (const CeldArrowLayer *layer, StrokeColour paint, StrokeColour pixel)
 {
-  return (int) fmin ((1 << KEY_BITS) - 1, (value + 255) / 511 * (1 << KEY_BITS));
+  StrokeColour paper = { layer->paper[0], layer->paper[1], layer->paper[2] };
+  double       red = paint.red - paper.red, green = paint.green - paper.green, blue = paint.blue - paper.blue, share;
+
+  if (!layer->opaque)
+    return distance_between (paint, pixel);
+  share = (red * (pixel.red - paper.red) + green * (pixel.green - paper.green) + blue * (pixel.blue - paper.blue)) /
+          fmax (1, red * red + green * green + blue * blue);
+  share = fmax (0, fmin (share, 1));
+  return distance_between (
+    (StrokeColour) { paper.red + share * red, paper.green + share * green, paper.blue + share * blue }, pixel);
 }
 
 static size_t
-key_of (const CeldArrowLayer *layer, StrokeColour c)
+key_of (StrokeColour c)
 {
-  if (layer->opaque)
-    return (size_t) ((channel_key (c.red) << KEY_BITS | channel_key (c.green)) << KEY_BITS | channel_key (c.blue));
   return (size_t) (((int) c.red >> (8 - KEY_BITS) << KEY_BITS | (int) c.green >> (8 - KEY_BITS)) << KEY_BITS |
                    (int) c.blue >> (8 - KEY_BITS));
 }
@@ -71,7 +75,7 @@ static CeldStatus
 find_palette (const CeldArrowStroke *stroke, const CeldArrowLayer *layer, StrokeColour *palette, int *n)
 {
   Bin   *bins  = celd_alloc0 ((size_t) 1 << 3 * KEY_BITS, sizeof *bins);
-  double solid = 0, apart = LEAST_CONTRAST * (layer->opaque ? ON_PAPER : 1);
+  double solid = 0;
   int    most = 0;
 
   *n = 0;
@@ -89,7 +93,7 @@ find_palette (const CeldArrowStroke *stroke, const CeldArrowLayer *layer, Stroke
       if (celd_arrow_opacity (layer, x, y) < SOLID_SHARE * most)
         continue;
       c   = colour_at (layer, x, y);
-      bin = &bins[key_of (layer, c)];
+      bin = &bins[key_of (c)];
       bin->red += c.red;
       bin->green += c.green;
       bin->blue += c.blue;
@@ -107,24 +111,12 @@ find_palette (const CeldArrowStroke *stroke, const CeldArrowLayer *layer, Stroke
         break;
       palette[*n] = (StrokeColour) { best->red / best->n, best->green / best->n, best->blue / best->n };
       for (int k = 0; k < *n; k++)
-        other &= distance_between (palette[k], palette[*n]) > apart;
+        other &= distance_from_paint (layer, palette[k], palette[*n]) > LEAST_CONTRAST;
       *n += other;
       best->n = 0;
     }
   celd_free (bins);
   return CELD_OK;
-}
-
-/* The index of the colour of a pixel; `n` if it is none of them. */
-static int
-nearest_colour (const StrokeColour *palette, int n, StrokeColour c, double most)
-{
-  int nearest = 0;
-
-  for (int k = 1; k < n; k++)
-    if (distance_between (palette[k], c) < distance_between (palette[nearest], c))
-      nearest = k;
-  return distance_between (palette[nearest], c) <= most ? nearest : n;
 }
 
 /* Work space in the box of the component. */
@@ -278,12 +270,44 @@ add_parts (ColourSplit *s, const CeldArrowStroke *stroke, int colour, CeldColour
   return status;
 }
 
+/* How badly a colour fits a pixel of the component; without alpha those around it have a say. */
+static double
+misfit (const ColourSplit *s, const CeldArrowLayer *layer, StrokeColour paint, int x, int y)
+{
+  double sum = distance_from_paint (layer, paint, colour_at (layer, x, y));
+
+  for (int j = y - 1; j <= y + 1 && layer->opaque; j++)
+    for (int i = x - 1; i <= x + 1; i++)
+      if (s->mask.painted[(size_t) (j - s->mask.top) * (size_t) s->mask.width + (size_t) (i - s->mask.left)])
+        sum += AROUND * distance_from_paint (layer, paint, colour_at (layer, i, j));
+  return sum;
+}
+
+/* The index of the colour of a pixel; `n` if it is none of them. */
+static int
+nearest_colour (const ColourSplit *s, const CeldArrowLayer *layer, const StrokeColour *palette, int n, int x, int y)
+{
+  double most = layer->opaque ? MOST_ON_PAPER : MOST_CONTRAST, least = misfit (s, layer, palette[0], x, y);
+  int    nearest = 0;
+
+  for (int k = 1; k < n; k++)
+    {
+      double other = misfit (s, layer, palette[k], x, y);
+
+      if (other < least)
+        {
+          nearest = k;
+          least   = other;
+        }
+    }
+  return distance_from_paint (layer, palette[nearest], colour_at (layer, x, y)) <= most ? nearest : n;
+}
+
 /* Makes room, and finds the colour of each pixel of a component, one of n. */
 static CeldStatus
 colour_split_new (const CeldArrowStroke *component, const CeldArrowLayer *layer, const StrokeColour *palette, int n,
                   ColourSplit *s)
 {
-  double     most = MOST_CONTRAST * (layer->opaque ? ON_PAPER : 1);
   size_t     area;
   CeldStatus status = celd_stroke_mask_new (component, &s->mask);
 
@@ -300,7 +324,7 @@ colour_split_new (const CeldArrowStroke *component, const CeldArrowLayer *layer,
       int    x = celd_stroke_x (component, component->pixel[i]), y = celd_stroke_y (component, component->pixel[i]);
       size_t p = (size_t) (y - s->mask.top) * (size_t) s->mask.width + (size_t) (x - s->mask.left);
 
-      s->index[p] = (uint8_t) nearest_colour (palette, n, colour_at (layer, x, y), most);
+      s->index[p] = (uint8_t) nearest_colour (s, layer, palette, n, x, y);
     }
   return celd_labels_new (s->mask.width, s->mask.height, &s->parts);
 }

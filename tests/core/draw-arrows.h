@@ -267,4 +267,18 @@ count_read (const Answer *answer, const Arrow *arrows, int n, CeldArrowStyle sty
   return found;
 }
 
+/* Composites paint on a colour: a layer without alpha. */
+static inline void
+flatten (CeldPaint *paint, uint8_t paper)
+{
+  for (size_t i = 0; i < paint->stride * (size_t) paint->height; i++)
+    {
+      uint8_t *c = paint->data + 4 * i;
+
+      for (int k = 0; k < 3; k++)
+        c[k] = (uint8_t) ((c[k] * c[3] + paper * (255 - c[3]) + 127) / 255);
+      c[3] = 255;
+    }
+}
+
 #endif

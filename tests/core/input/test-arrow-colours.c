@@ -188,6 +188,38 @@ ends_below_dots (void)
     }
 }
 
+/* Edges on white paper are mixed with it: the lighter shades of one colour are not paint of another, near one. */
+static void
+near_hues_on_white (void)
+{
+  static const uint8_t near[4][3] = { { 120, 40, 160 }, { 200, 0, 120 }, { 230, 90, 0 }, { 150, 100, 20 } };
+  uint32_t             state = 21;
+  size_t               found = 0;
+
+  for (int i = 0; i < 160; i++)
+    {
+      double    angle = random_between (&state, 0, 6.28);
+      CeldPaint paint = blank (SIZE, SIZE);
+      Arrow     a[4];
+      Answer    answer;
+
+      for (int k = 0; k < 4; k++)
+        {
+          double w = random_between (&state, 1.5, 4);
+
+          a[k] = spoke (angle + 1.57 * k + random_between (&state, -0.4, 0.4), 80, w, CELD_ARROW_HEAD, false, k % 2);
+          draw_arrow (&paint, &a[k], near[k]);
+        }
+      flatten (&paint, 255);
+      answer = read_paint (&paint, CELD_ARROW_HEAD);
+      CHECK (answer.relations.n == count_read (&answer, a, 4, CELD_ARROW_HEAD));
+      found += answer.relations.n;
+      forget (&answer);
+      free (paint.data);
+    }
+  CHECK (found >= 600);
+}
+
 /* Each keeps its own colour, so that only the blue one cracks. */
 static void
 colours_stay (void)
@@ -221,6 +253,7 @@ main (void)
   RUN (one_end_is_enough);
   RUN (two_in_a_chain);
   RUN (ends_below_dots);
+  RUN (near_hues_on_white);
   RUN (colours_stay);
   return DONE;
 }

@@ -77,20 +77,6 @@ short_ones_lead_to_long_ones (void)
       }
 }
 
-/* Composites paint on a colour: a layer without alpha. */
-static void
-flatten (CeldPaint *paint, uint8_t paper)
-{
-  for (size_t i = 0; i < paint->stride * (size_t) paint->height; i++)
-    {
-      uint8_t *c = paint->data + 4 * i;
-
-      for (int k = 0; k < 3; k++)
-        c[k] = (uint8_t) ((c[k] * c[3] + paper * (255 - c[3]) + 127) / 255);
-      c[3] = 255;
-    }
-}
-
 static void
 layers_without_alpha (void)
 {
