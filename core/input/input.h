@@ -72,6 +72,7 @@ typedef struct
   uint32_t colour;                      /* the colour of most solid pixels */
   uint32_t next;                        /* in the same cell of colour space */
   uint32_t pixels, solid, interior;
+  uint32_t commonest;                   /* interior pixels of the colour that has most of them */
   uint64_t opacity;
   bool     apart;                       /* in pixel art: no pixel of another cluster touches its pixels */
   bool     is_label;

@@ -18,6 +18,7 @@
 #define RIM_DISTANCE     40   /* of 255, from the colour of a rim to that of its stroke, at most; chosen */
 #define TINT_SHARE       0.15 /* of the strongest contrast, that loss leaves on paper, at most: ripple; chosen */
 #define SIDE_ERROR       3    /* of 255, from the side of a soft stroke to the nearest mixture, at most: rounding */
+#define MOST_VARIETY     1.25 /* times the commonest interior colour are all interior pixels of paint, at most; chosen */
 #define MANY_CLUSTERS    4096 /* more are a photograph, where rims are not looked for; chosen */
 
 typedef struct { uint32_t solid, id; } ClusterCandidate;
@@ -94,7 +95,7 @@ tally_clusters (CeldScribbleLayer *r)
 {
   for (size_t k = 0; k < r->n_clusters; k++)
     {
-      r->cluster[k].pixels = r->cluster[k].solid = r->cluster[k].interior = 0;
+      r->cluster[k].pixels = r->cluster[k].solid = r->cluster[k].interior = r->cluster[k].commonest = 0;
       r->cluster[k].opacity = 0;
     }
   for (size_t i = 1; i < r->n; i++)
@@ -106,6 +107,7 @@ tally_clusters (CeldScribbleLayer *r)
         k->pixels += c->pixels;
         k->solid += c->solid;
         k->interior += c->interior;
+        k->commonest = c->interior > k->commonest ? c->interior : k->commonest;
         k->opacity += c->opacity;
       }
 }
@@ -115,6 +117,14 @@ static bool
 has_interior (const CeldScribbleCluster *k)
 {
   return k->interior >= CELD_LEAST_DOT && 8 * (size_t) k->interior >= k->pixels;
+}
+
+/* Are four fifths of its interior pixels of exactly one colour?  Those of a stroke are; mixtures vary, and so does what
+ * loss makes of the colours of a layer whose alpha is kept, such as WebP's. */
+static bool
+has_one_colour (const CeldScribbleCluster *k)
+{
+  return MOST_VARIETY * k->commonest >= k->interior;
 }
 
 /* Is cluster j larger than cluster k and of nearly its colour, so that k may be a rim of it?  A rim of paper has no
@@ -212,7 +222,7 @@ measure_tints (CeldScribbleLayer *r)
 }
 
 /* Merges clusters with those that they often touch and may be a part of, unless the picture is clean and the cluster
- * has interior pixels. */
+ * has interior pixels of one colour. */
 static CeldStatus
 merge_parts (CeldScribbleLayer *r, MayBePart may_be_part)
 {
@@ -231,7 +241,8 @@ merge_parts (CeldScribbleLayer *r, MayBePart may_be_part)
 
       if (r->lossy && is_tint (r, c))
         parent[k].of = 0;
-      else if (touch < CELD_LEAST_DOT || 10 * touch < c->pixels || (!r->lossy && has_interior (c)))
+      else if (touch < CELD_LEAST_DOT || 10 * touch < c->pixels ||
+               (!r->lossy && has_interior (c) && has_one_colour (c)))
         parent[k].of = k;
     }
   for (size_t i = 1; i < r->n; i++)

@@ -127,6 +127,26 @@ a_rim_belongs_to_its_stroke (void)
     }
 }
 
+/* An inside of many colours is no paint of its own: loss shakes the colours of a layer whose alpha is kept. */
+static void
+a_rim_with_a_varied_inside_belongs_to_its_stroke (void)
+{
+  static const char *const art[] = { "AAAAAAAAAA", "AAAAAAAAAA", "BBBBBBBBCC", NULL };
+  int                      rgb[3][3] = { { 200, 0, 0 }, { 180, 20, 0 }, { 181, 21, 0 } };
+
+  for (uint32_t varied = 2; varied <= 3; varied++)
+    {
+      CeldScribbleLayer r = reading_new (art, rgb, 3);
+
+      r.colour[2].interior = 8;
+      r.colour[3].interior = varied;
+      cluster (&r, 2);
+      CHECK ((r.colour[2].cluster == r.colour[1].cluster) == (varied == 3));
+      CHECK (r.colour[3].cluster == r.colour[2].cluster);
+      reading_clear (&r);
+    }
+}
+
 /* C is as near to A's colour as to B's, and nearer to that of D: but B is what it touches. */
 static void
 a_rim_belongs_to_what_it_touches (void)
@@ -165,6 +185,7 @@ main (void)
   RUN (one_pixel_is_a_label_in_pixel_art);
   RUN (fringes_of_others_do_not_count);
   RUN (a_rim_belongs_to_its_stroke);
+  RUN (a_rim_with_a_varied_inside_belongs_to_its_stroke);
   RUN (a_rim_belongs_to_what_it_touches);
   RUN (what_equals_paper_is_paper);
   return DONE;
