@@ -18,7 +18,7 @@
 #define RIM_DISTANCE     40   /* of 255, from the colour of a rim to that of its stroke, at most; chosen */
 #define TINT_SHARE       0.15 /* of the strongest contrast, that loss leaves on paper, at most: ripple; chosen */
 #define SIDE_ERROR       3    /* of 255, from the side of a soft stroke to the nearest mixture, at most: rounding */
-#define MOST_VARIETY     1.25 /* times the commonest interior colour are all interior pixels of paint, at most; chosen */
+#define MOST_VARIETY     1.25 /* times the interior pixels of the commonest colour: all of a stroke, at most; chosen */
 #define MANY_CLUSTERS    4096 /* more are a photograph, where rims are not looked for; chosen */
 
 typedef struct { uint32_t solid, id; } ClusterCandidate;
