@@ -3,8 +3,8 @@
  * Arrows of different colours may share ends and lie on each other.  The colours are the commonest ones of the solid
  * paint that differ clearly.  In a layer without alpha, edges are mixed with the paper: there, a pixel is compared with
  * the nearest mixture of a colour and the paper, and the pixels around it have a say, because near the paper all
- * mixtures are alike.  Where a stroke passes below another one, its paint is continued through the other one's, as far as a
- * morphological closing fills that.
+ * mixtures are alike.  Where a stroke passes below another one, its paint is continued through the other one's, as far
+ * as a morphological closing fills that.
  *
  * Cost: a pass over the component for each colour, and distance transforms of its box.
  *
